@@ -97,14 +97,14 @@ std::string latex_sentence(std::string_view text) {
       text.remove_prefix(found->first.size());
       continue;
     }
-    const unsigned char first = static_cast<unsigned char>(text[0]);
     // M_f, S_{k+1}.
     if (text[0] == '_' && text.size() > 1 && !result.empty()) {
       const std::size_t close = text.find('}');
       const bool braced = text[1] == '{' && close != std::string_view::npos;
-      const std::string_view below = braced ? text.substr(2, close - 2) : text.substr(1, 1);
-      result += "\\ensuremath{_{" + std::string(below) + "}}";
-      text.remove_prefix(braced ? close + 1 : 2);
+      const std::size_t size = character_size(text.substr(1));
+      const std::string_view below = braced ? text.substr(2, close - 2) : text.substr(1, size);
+      result += "\\ensuremath{_{" + latex_sentence(below) + "}}";
+      text.remove_prefix(braced ? close + 1 : 1 + size);
       continue;
     }
     // The sets S_k and M_k.
@@ -115,15 +115,9 @@ std::string latex_sentence(std::string_view text) {
       text.remove_prefix(1);
       continue;
     }
-    if (first < 0x80) {
-      result += latex_text(text.substr(0, 1));
-      text.remove_prefix(1);
-      continue;
-    }
-    // A letter that is not known here: the rest of its bytes go along, for a LaTeX that reads UTF-8.
-    std::size_t size = 1;
-    while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) ++size;
-    result += text.substr(0, size);
+    // A letter that is not known here stays, for a LaTeX that reads UTF-8.
+    const std::size_t size = character_size(text);
+    result += latex_text(text.substr(0, size));
     text.remove_prefix(size);
   }
   return result;

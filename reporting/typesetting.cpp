@@ -84,6 +84,12 @@ std::optional<Markup> manifold(const Call& call) {
 
 }  // namespace
 
+std::size_t character_size(std::string_view text) {
+  std::size_t size = std::min<std::size_t>(1, text.size());
+  while (size < text.size() && (static_cast<unsigned char>(text[size]) & 0xC0) == 0x80) ++size;
+  return size;
+}
+
 Markup typeset(std::string_view text) {
   const auto letter = [](char c) { return std::isalpha(static_cast<unsigned char>(c)) != 0; };
   Markup markup;
@@ -96,8 +102,9 @@ Markup typeset(std::string_view text) {
       markup += symbol ? element("i", {}, word) : Markup(word);
     } else if (text[0] == '_') {
       const bool braced = text.starts_with("_{") && text.find('}') != std::string_view::npos;
-      size = braced ? text.find('}') + 1 : std::min<std::size_t>(2, text.size());
-      markup += element("sub", {}, typeset(braced ? text.substr(2, size - 3) : text.substr(1, 1)));
+      size = braced ? text.find('}') + 1 : 1 + character_size(text.substr(1));
+      markup +=
+          element("sub", {}, typeset(braced ? text.substr(2, size - 3) : text.substr(1, size - 1)));
     } else if (is_greek(text)) {
       // Fonts for words need not have these letters, those for formulas do.
       size = 2;

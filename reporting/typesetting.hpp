@@ -1,6 +1,7 @@
 // Text with its mathematics set, for pages.
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <string_view>
 
@@ -19,6 +20,9 @@ plot::Markup typeset_manifolds(std::string_view text);
 
 // The same as plain text: T*S², ℝ³ × SO(3).
 std::string manifolds_in_unicode(std::string_view text);
+
+// How many bytes of UTF-8 the first character of a text has; 0 of an empty text.
+std::size_t character_size(std::string_view text);
 
 // The same text, whose numbers stay in one line: "1.2 × 10⁻⁴ ± 3 × 10⁻⁵" with spaces that do not break.
 std::string unbroken(std::string_view text);

@@ -7,6 +7,7 @@
 
 #include "courant/core/language/formula_tree.hpp"
 #include "courant/reporting/tour_chapters.hpp"
+#include "courant/reporting/typesetting.hpp"
 
 BOOST_AUTO_TEST_SUITE(prose_typesetting_test)
 
@@ -21,6 +22,11 @@ BOOST_AUTO_TEST_CASE(formulas_stand_between_marks) {
   const std::string markup = typeset_prose(prose).str();
   BOOST_TEST(markup.starts_with("From <math>"), markup);
   BOOST_TEST(markup.find("<i>M</i><sub><i>f</i></sub>: *no* <math>") != std::string::npos, markup);
+  // A letter of two bytes below another one.
+  BOOST_TEST(latex_sentence("∂_λE") ==
+             "\\ensuremath{\\partial}\\ensuremath{_{\\ensuremath{\\lambda}}}E");
+  const std::string below = typeset("∂_λE").str();
+  BOOST_TEST(below.find("<sub><math><mi>λ</mi></math></sub><i>E</i>") != std::string::npos, below);
   BOOST_TEST(marked_prose("").parts().empty());
   BOOST_TEST(marked_prose("no formula").parts().size() == 1u);
 }
