@@ -131,6 +131,17 @@ bool is_formula(const Prose& prose) {
   return prose.parts().size() == 1 && prose.parts()[0].is_formula;
 }
 
+// A formula that is set smaller where one of its lines, of a single term, is wider than the page.
+std::string fitted(const std::string& formula) {
+  return "\\fitted{" + latex_displayed(formula) + "}";
+}
+std::string displayed(const std::string& formula) { return "\\[ " + fitted(formula) + " \\]\n"; }
+constexpr const char* kFitted =
+    "\\newsavebox{\\fittedline}\n"
+    "\\newcommand{\\fitted}[1]{\\sbox{\\fittedline}{$\\displaystyle #1$}%\n"
+    "\\ifdim\\wd\\fittedline>\\linewidth\\resizebox{\\linewidth}{!}{\\usebox{\\fittedline}}%\n"
+    "\\else\\usebox{\\fittedline}\\fi}\n";
+
 // A paragraph that is displayed, cut before and behind formulas that need a line of their own.
 std::vector<Prose> lines_of(const Prose& prose) {
   std::vector<Prose> lines(1);
@@ -152,8 +163,9 @@ std::string latex_paragraphs(const std::vector<LadderPage::Paragraph>& list) {
       continue;
     }
     for (const Prose& line : lines_of(one.text))
-      all += is_formula(line) ? "\\[ " + latex_displayed(line.parts()[0].text) + " \\]\n"
-                              : "\\begin{quote}\n" + latex_prose(line) + "\n\\end{quote}\n";
+      all += is_formula(line)
+                 ? displayed(line.parts()[0].text)
+                 : "\\begin{quote}\\raggedright\n" + latex_prose(line) + "\n\\end{quote}\n";
   }
   return all;
 }
@@ -192,9 +204,7 @@ std::string latex_entry(const ConstraintBrackets::Entry& entry) {
 std::string latex_matrix(const ConstraintBrackets& brackets) {
   std::string all;
   for (std::size_t a = 0; a < brackets.constraints.size(); ++a)
-    all += "\\[ " +
-           latex_displayed("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]) +
-           " \\]\n";
+    all += displayed("phi_" + std::to_string(a + 1) + " = " + brackets.constraints[a]);
   all += "\\[ \\bigl(\\{\\phi_a, \\phi_b\\}\\bigr) = \\begin{pmatrix}\n";
   for (const auto& row : brackets.matrix) {
     for (std::size_t b = 0; b < row.size(); ++b) all += (b == 0 ? "" : " & ") + latex_entry(row[b]);
@@ -346,17 +356,19 @@ std::string to_html(const LadderPage& page) {
 
 std::string to_latex(const LadderPage& page) {
   std::string text =
-      "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath,amssymb}\n"
+      "\\documentclass{article}\n\\usepackage[utf8]{inputenc}\n\\usepackage{amsmath,amssymb,"
+      "graphicx}\n" +
+      std::string(kFitted) +
       "\\setlength{\\parindent}{0pt}\n\\setlength{\\parskip}{0.5ex}\n\\begin{document}\n\\section*"
-      "{" +
+      "{\\raggedright " +
       latex_sentence(page.title) + "}\n" + latex_sentence(manifolds_in_unicode(page.system)) +
       "\n\n";
   for (const ModelEntry& entry : page.model) {
     text += latex_sentence(entry.name) + ":\n" + "\\begin{quote}\\raggedright\n";
     for (const Prose& line : entry.lines) {
-      const bool is_long = is_formula(line) && is_long_formula(line.parts()[0].text);
-      text += is_long ? "$\\displaystyle " + latex_displayed(line.parts()[0].text) + "$\\\\\n"
-                      : latex_prose(line) + "\\\\\n";
+      for (const Prose::Part& part : line.parts())
+        text += part.is_formula ? fitted(part.text) : latex_sentence(part.text);
+      text += "\\\\\n";
     }
     text += "\\end{quote}\n";
   }

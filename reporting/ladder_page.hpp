@@ -51,7 +51,7 @@ plot::Markup discrete_markup(const Experiment& experiment, const LadderReport& l
 
 // A page that needs nothing else: no network, no script.
 std::string to_html(const LadderPage& page);
-// A document for LaTeX, which needs the packages amsmath and amssymb alone.
+// A document for LaTeX, which needs the packages amsmath, amssymb and graphicx alone.
 std::string to_latex(const LadderPage& page);
 // The sections alone, for a part of a text: their titles are bold, no headings.
 std::string sections_in_markdown(const LadderPage& page);

@@ -133,7 +133,7 @@ BOOST_AUTO_TEST_CASE(lines_fit_a_hundred_columns) {
 BOOST_AUTO_TEST_CASE(prints_documents) {
   const Answer latex = constraints({pendulum, "--latex"});
   BOOST_TEST(latex.status == 0, latex.err);
-  BOOST_TEST(says(latex.out, "\\[ x\\,v + y\\,w = 0 \\]"), latex.out);
+  BOOST_TEST(says(latex.out, "\\[ \\fitted{x\\,v + y\\,w = 0} \\]"), latex.out);
   BOOST_TEST(says(latex.out, "S_{0} & \\supseteq & S_{1}"), latex.out);
   BOOST_TEST(!says(latex.out, "x*v"));
   const Answer markdown = constraints({pendulum, "--markdown"});
