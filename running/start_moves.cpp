@@ -52,17 +52,19 @@ struct GivenPart {
   }
   // Zeros alone have no size: they are measured by 1.
   double round_off() const { return size() > 0.0 ? 1e-9 * (size() + norm(found)) : 1e-15; }
-  // The numbers that moved most, in words.
+  // The numbers that moved most, in words; not those whose movement is round-off of theirs.
   std::string largest() const {
     constexpr std::size_t most = 3;
+    constexpr double round_off = 1e-12;
     std::vector<std::size_t> order(given.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto by = [&](std::size_t i) { return -std::fabs(found[i] - given[i]); };
     std::ranges::stable_sort(order, {}, by);
+    const double least = round_off * moved();
     std::string text;
     for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
       const std::size_t i = order[k];
-      if (found[i] == given[i]) break;
+      if (!(std::fabs(found[i] - given[i]) > least)) break;
       text += (text.empty() ? "" : ", ") + names[i] + " from " + number_text(given[i], 6) + " to " +
               number_text(found[i], 6);
     }

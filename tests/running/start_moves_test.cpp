@@ -12,6 +12,7 @@ BOOST_AUTO_TEST_SUITE(start_moves_test)
 //  * a start may be anywhere
 //  * rounding is a warning
 //  * a run begins where a search was lost
+//  * what is round-off next to a move is told as a move
 //  * few digits allow to move by any part without a word (running/start_moves.cpp)
 //  * units made of round-off hide constraints, so that no start is shown to be the nearest
 //    (integrators/certificate/least_deviation.cpp)
@@ -109,6 +110,20 @@ BOOST_AUTO_TEST_CASE(more_than_a_tenth_is_a_refusal) {
   BOOST_CHECK_NO_THROW(start_of_run(read_experiment(without.dump())));
   experiment["hold"] = {"x"};
   BOOST_TEST(moves(experiment).refusal == "");
+}
+
+// A bead on a hoop that turns by 8 a second moves along, whatever is typed; round-off of its other velocities is no move.
+BOOST_AUTO_TEST_CASE(round_off_beside_a_move_is_not_told) {
+  const StartMoves found =
+      moves({{"system",
+              {{"type", "lagrangian"},
+               {"coordinates", {"x", "y", "z"}},
+               {"lagrangian", "(x'^2 + y'^2 + z'^2)/20 - z"},
+               {"holonomic", {"x^2 + y^2 + z^2 - 0.0625", "x*sin(8*t) - y*cos(8*t)"}}}},
+             {"initial", {{"x", 0.1768}, {"y", 0}, {"z", -0.1768}, {"rest", true}}},
+             {"method", {{"type", "constrain-first"}}},
+             {"time", {{"step", 0.01}, {"end", 0.1}}}});
+  BOOST_TEST(found.refusal.find("(y' from 0 to 1.41421)") != std::string::npos, found.refusal);
 }
 
 // (0.6, -0.4) is 1 - √0.52 = 0.279 from the circle, of 0.721, in one digit as in four. One digit leaves that open.
