@@ -473,12 +473,14 @@ class StartSearch {
     return ladder;
   }
 
-  // With velocities and unknowns that can be kept at the point that is found; where they cannot, the nearest start.
+  // With velocities and unknowns that can be kept at the point that is found, unless there is a nearer one; where they
+  // cannot, the nearest start.
   ConsistentStart coordinates_moved() const {
+    constexpr double nearer = 1e-6;
     const ConstraintLadder ladder = free_ladder();
     if (has_no_start(ladder)) return ladder;
     if (!more_is_given()) return nearest(ladder);
-    ConstraintLadder kept = all_kept(ladder.point.x);
+    ConsistentStart kept = all_kept(ladder.point.x);
     if (has_no_start(kept) || (kept.is_ambiguous() && !ladder.is_ambiguous())) {
       const ConstraintLadder moving = nearest_to_given_unknowns([&](const InitialGuess& follows) {
         const InitialGuess guess =
@@ -487,9 +489,18 @@ class StartSearch {
       });
       return nearest(has_no_start(moving) ? ladder : moving);
     }
+    ConsistentStart near = nearest(kept);
+    if (moved_first(near.point) < (1.0 - nearer) * moved_first(kept.point)) return near;
+    kept.is_nearest = near.is_nearest;
     kept.moved = ladder.moved;
     kept.moves = movements_of_given(experiment_, kept.point);
     return kept;
+  }
+
+  // How far what is nearest first of all, the positions, is from what is given.
+  double moved_first(const State& point) const {
+    const std::vector<NearestStart::Stage> stages = start_stages(experiment_, guess_);
+    return stages.empty() ? 0.0 : stages.front()(point).of(point);
   }
 
   // The nearest start of the last level of a ladder, which has one; that of the ladder if it is none.

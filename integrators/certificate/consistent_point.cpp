@@ -87,6 +87,16 @@ VectorXd sizes_of_parts(const ConsistentJet& jet, Index unknowns) {
 
 }  // namespace
 
+VectorXd numbers_of(const State& state) {
+  VectorXd all(state.x.size() + state.v.size() + state.z.size());
+  all << state.x, state.v, state.z;
+  return all;
+}
+
+double LeastChange::of(const State& state) const {
+  return (root * (numbers_of(state)(rows) - given)).norm();
+}
+
 ConsistentPoint::ConsistentPoint(const std::shared_ptr<const ChartEquations>& equations,
                                  InitialGuess guess, SparseMatrixXd metric)
     : system_(equations->system()), guess_(std::move(guess)), metric_(std::move(metric)) {

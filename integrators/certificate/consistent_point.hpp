@@ -33,11 +33,16 @@ class ConsistentJet {
   Index level_ = 0;
 };
 
+// (x, v, z), the N + Ñ + m numbers of a state.
+VectorXd numbers_of(const State& state);
+
 // What of a state is to change least: ‖root ((x, v, z)[rows] - given)‖.
 struct LeastChange {
-  std::vector<Index> rows;  // of the N + Ñ + m numbers (x, v, z)
+  std::vector<Index> rows;  // of numbers_of()
   VectorXd given;
   SparseMatrixXd root;  // of the metric, with as many columns
+
+  double of(const State& state) const;  // that
 };
 
 // Where F^[k] vanishes near a guess.

@@ -7,12 +7,6 @@
 namespace courant {
 namespace {
 
-VectorXd numbers_of(const State& state) {
-  VectorXd all(state.x.size() + state.v.size() + state.z.size());
-  all << state.x, state.v, state.z;
-  return all;
-}
-
 State state_of_jet(const ConsistentJet& jet) { return jet.array().state(jet.zero().y); }
 
 // The given point moved by `distance` in the metric of a change that is one of points: a direction of random numbers.
