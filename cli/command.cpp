@@ -2,6 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cstdlib>
+#include <exception>
 #include <memory>
 #include <new>
 #include <ostream>
@@ -76,6 +78,18 @@ void print_error(const Console& console, const std::string& what) {
   // It may quote what somebody has written, which may have megabytes. Its place is in the beginning, what was expected in the end.
   constexpr std::size_t most = 4000, ending = 500;
   console.err << "courant: " << printable(shortened_between(what, most, ending)) << '\n';
+}
+
+void end_overdue(const Console& console, const std::function<Status()>& tell) {
+  Status status = failed;
+  try {
+    status = tell();
+  } catch (const std::exception& error) {
+    print_error(console, error.what());
+  }
+  console.out.flush();
+  console.err.flush();
+  std::_Exit(status);
 }
 
 int command(const std::vector<std::string>& arguments, const Console& console) {

@@ -34,6 +34,10 @@ struct Console {
 // One line on console.err, `courant: …`, whatever stands in `what`.
 void print_error(const Console& console, const std::string& what);
 
+// Ends the program, from any thread, after an interrupt that its work did not obey in time (Overdue).
+// `tell` says what is known, and gives the exit status.
+[[noreturn]] void end_overdue(const Console& console, const std::function<Status()>& tell);
+
 // A subcommand adds itself to the application, and `action` when it was chosen: what to do, and the
 // exit status of that.
 struct Session {

@@ -9,6 +9,7 @@
 #include "courant/cli/text.hpp"
 #include "courant/cli/waiting.hpp"
 #include "courant/running/ensemble_folder.hpp"
+#include "courant/running/overdue.hpp"
 
 namespace courant::cli {
 namespace {
@@ -50,7 +51,18 @@ int run_members(const Console& console, const EnsembleTask& task, const Experime
     if (!task.quiet) print_opening(console, experiment, ladder);
   };
   if (!task.quiet) options.on_progress = members_progress(console);
+  std::optional<Overdue> overdue;
+  if (console.heeds_stop)
+    overdue.emplace(console.stop, [&] {
+      end_overdue(console, [&] {
+        const bool is_out_of_time = Confinement::is_out_of_time();
+        print_error(console, task.file + ": " +
+                                 (is_out_of_time ? Confinement::time_in_words() : "interrupted"));
+        return is_out_of_time ? failed : interrupted;
+      });
+    });
   const EnsembleOutcome outcome = run_ensemble(experiment, folder, options);
+  overdue.reset();
   waiting.reset();
   if (console.heeds_stop) *console.heeds_stop = false;
   if (!task.quiet) print_ensemble(console, outcome, task.folder);

@@ -80,7 +80,6 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   if (experiment.time && !experiment.time->is_chosen) {
     std::optional<Waiting> waiting;
     if (!arguments.quiet) waiting.emplace(console, "choosing the step");
-    if (console.heeds_stop) *console.heeds_stop = true;
     const ChosenStep chosen =
         chosen_step(experiment, worthwhile(arguments.backend, experiment), console.stop);
     waiting.reset();
@@ -99,7 +98,6 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   if (experiment.boundary && !experiment.solution) {
     std::optional<Waiting> waiting;
     if (!arguments.quiet) waiting.emplace(console, "boundary values");
-    if (console.heeds_stop) *console.heeds_stop = true;
     const auto whole = with_boundary_solved(experiment, console.stop);
     waiting.reset();
     return run_experiment(console, arguments, *whole);
@@ -119,9 +117,9 @@ int run_experiment(const Console& console, const RunArguments& arguments,
   if (!arguments.quiet) waiting.emplace(console, "constraint algorithm");
   options.on_ladder = [&](const LadderReport& ladder) {
     waiting.reset();
-    if (console.heeds_stop) *console.heeds_stop = true;
     if (!arguments.quiet) print_opening(console, experiment, ladder);
   };
+  if (console.heeds_stop) options.on_begin = [&] { *console.heeds_stop = true; };
   if (!arguments.quiet) {
     options.on_resume = [&](long k, double t) { print_resumption(console, k, t); };
     if (console.is_terminal) {

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <ostream>
 #include <span>
@@ -20,6 +21,7 @@
 #include "courant/reading/setting.hpp"
 #include "courant/reporting/figure_file.hpp"
 #include "courant/reporting/study_figure.hpp"
+#include "courant/running/overdue.hpp"
 #include "courant/running/result_folder.hpp"
 
 namespace courant::cli {
@@ -94,6 +96,17 @@ int status_of_study(const StudyReport& study) {
   return done;
 }
 
+void tell(const Console& console, const StudyArguments& arguments, const std::string& names,
+          const StudyReport& study) {
+  if (!arguments.folder.empty())
+    write_files(ResultFolder(arguments.folder, "study", arguments.force), study);
+  if (arguments.json)
+    console.out << to_json(study).dump(2) << '\n';
+  else
+    print_study(console, study);
+  if (study.is_interrupted) print_error(console, names + ": interrupted");
+}
+
 int study_files(const Console& console, const StudyArguments& arguments) {
   if (!arguments.folder.empty()) ResultFolder::check(arguments.folder, "study", arguments.force);
   std::vector<StudySubject> subjects;
@@ -113,24 +126,36 @@ int study_files(const Console& console, const StudyArguments& arguments) {
     waiting.reset();
     waiting.emplace(console, what);
   };
-  if (console.heeds_stop) *console.heeds_stop = true;
-  StudyReport result;
   const std::string names =
       arguments.files.size() == 1 ? arguments.files.front() : arguments.files.front() + ", …";
+  std::mutex mutex;
+  StudyReport known{.is_interrupted = true,
+                    .methods = {}};  // of the methods that have been studied
+  options.on_method = [&](const StudyReport::Method& method) {
+    const std::scoped_lock lock(mutex);
+    known.methods.push_back(method);
+  };
+  std::optional<Overdue> overdue;
+  if (console.heeds_stop) {
+    overdue.emplace(console.stop, [&] {
+      end_overdue(console, [&] {
+        const std::scoped_lock lock(mutex);
+        tell(console, arguments, names, known);
+        return interrupted;
+      });
+    });
+    *console.heeds_stop = true;
+  }
+  StudyReport result;
   const int status = reporting_errors(console, names, [&] {
     result = study(subjects, options);
     return done;
   });
+  overdue.reset();
   waiting.reset();
   if (console.heeds_stop) *console.heeds_stop = false;
   if (status != done) return status;
-  if (!arguments.folder.empty())
-    write_files(ResultFolder(arguments.folder, "study", arguments.force), result);
-  if (arguments.json)
-    console.out << to_json(result).dump(2) << '\n';
-  else
-    print_study(console, result);
-  if (result.is_interrupted) print_error(console, names + ": interrupted");
+  tell(console, arguments, names, result);
   return status_of_study(result);
 }
 

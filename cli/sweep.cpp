@@ -125,6 +125,25 @@ Json earlier_table(const SweepTask& task, const Json& head) {
   return table;
 }
 
+// What became of a sweep, on the screen and as a figure; `folder`: that of its files, null where there are none.
+void tell(const Console& console, const SweepTask& task, const Json& table,
+          const ResultFolder* folder) {
+  const auto figure = folder ? sweep_figure(table) : std::nullopt;
+  if (folder)
+    folder->write(without_seconds(table), sweep_csv(table), figure ? figure_svg(*figure) : "");
+  if (task.json)
+    console.out << table.dump(2) << '\n';
+  else if (!task.quiet)
+    print_table(console, task, table);
+  if (folder && !task.quiet && !task.json) {
+    const std::size_t count = table.at("runs").size();
+    console.out << "\n  " << count << (count == 1 ? " case" : " cases") << "; "
+                << shown_name(folder->file("csv")) << (figure ? ", and a figure: " : "")
+                << (figure ? shown_name(folder->file("svg").filename()) : "") << '\n';
+  }
+  print_messages(console, task, table);
+}
+
 int sweep_of(const Console& console, const SweepTask& task, const Json& document) {
   if (document.contains("ensemble"))
     throw ExperimentError("/ensemble",
@@ -138,26 +157,25 @@ int sweep_of(const Console& console, const SweepTask& task, const Json& document
   const Json earlier = earlier_table(task, head);
   std::optional<ResultFolder> folder;
   if (!task.folder.empty()) folder.emplace(task.folder, "sweep", task.replace, task.sweep.resume);
-  if (console.heeds_stop) *console.heeds_stop = true;
-  const Json table =
-      sweep(head, cases, [&](const SweepCase& one) { return task.action(one, task.folder); },
-            {.threads = task.sweep.jobs > 0 ? task.sweep.jobs : core_count(),
-             .stop = console.stop,
-             .on_progress = progress(console, task.quiet),
-             .folder = folder ? &*folder : nullptr,
-             .earlier = earlier});
+  const ResultFolder* const files = folder ? &*folder : nullptr;
+  SweepOptions options{.threads = task.sweep.jobs > 0 ? task.sweep.jobs : core_count(),
+                       .stop = console.stop,
+                       .on_progress = progress(console, task.quiet),
+                       .folder = files,
+                       .earlier = earlier};
+  if (console.heeds_stop) {
+    options.on_overdue = [&](const Json& table) {
+      end_overdue(console, [&] {
+        tell(console, task, table, files);
+        return interrupted;
+      });
+    };
+    *console.heeds_stop = true;
+  }
+  const Json table = sweep(
+      head, cases, [&](const SweepCase& one) { return task.action(one, task.folder); }, options);
   if (console.heeds_stop) *console.heeds_stop = false;
-  const auto figure = folder ? sweep_figure(table) : std::nullopt;
-  if (figure) folder->write(without_seconds(table), sweep_csv(table), figure_svg(*figure));
-  if (task.json)
-    console.out << table.dump(2) << '\n';
-  else if (!task.quiet)
-    print_table(console, task, table);
-  if (folder && !task.quiet && !task.json)
-    console.out << "\n  " << cases.size() << (cases.size() == 1 ? " case" : " cases") << "; "
-                << shown_name(folder->file("csv")) << (figure ? ", and a figure: " : "")
-                << (figure ? shown_name(folder->file("svg").filename()) : "") << '\n';
-  print_messages(console, task, table);
+  tell(console, task, table, files);
   return status_of_sweep(table);
 }
 

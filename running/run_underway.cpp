@@ -84,6 +84,7 @@ class RunUnderway {
     } else if (!experiment_.expect.inconsistent) {
       fail("The system is inconsistent near the initial values. " + ladder_.reason);
     }
+    if (options_.on_begin) options_.on_begin();
     const Checkpoint* const checkpoint = keeper_.begin(experiment_);
     results_.id = keeper_.id();
     try {

@@ -30,8 +30,10 @@ struct RunOptions {
   const std::atomic<bool>* stop = nullptr;     // set by someone else: the run is interrupted
   std::function<void(const LadderReport&)> on_ladder;  // once the constraint algorithm has finished
   std::function<void(const Integrator&)> on_method = {};  // once it is made ready
-  std::function<void(const Progress&)> on_progress;       // some ten times a second
-  std::vector<RunWatcher*> watchers = {};                 // are told of every state too
+  // Before the first file is written: until then there is nothing to be kept of the run.
+  std::function<void()> on_begin = {};
+  std::function<void(const Progress&)> on_progress;  // some ten times a second
+  std::vector<RunWatcher*> watchers = {};            // are told of every state too
   // Whether a thread of its own may make steps ahead of what is done with them, see RunSteps. All else is done, and
   // all of these are called, in the thread that called run().
   bool ahead = core_count() > 1;

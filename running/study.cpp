@@ -441,8 +441,10 @@ StudyReport study(std::span<const StudySubject> subjects, const StudyOptions& op
   StudyReport report;
   std::map<std::string, Truth> references;
   try {
-    for (const StudySubject& subject : subjects)
+    for (const StudySubject& subject : subjects) {
       report.methods.push_back(study_of(subject, options, references));
+      if (options.on_method) options.on_method(report.methods.back());
+    }
   } catch (const Stopped&) {
     report.is_interrupted = true;
   }

@@ -27,7 +27,8 @@ struct StudyOptions {
   std::vector<std::string> quantities = {};
   Backend backend = Backend::automatic;
   const std::atomic<bool>* stop = nullptr;  // set by someone else: the study is interrupted
-  std::function<void(const std::string& what)> on_progress = {};  // before each piece of work
+  std::function<void(const std::string& what)> on_progress = {};   // before each piece of work
+  std::function<void(const StudyReport::Method&)> on_method = {};  // after each method
 };
 
 // The error of a run is the greatest Euclidean norm of (quantities - reference) at the times of the

@@ -18,6 +18,7 @@
 #include "courant/running/consistent_start.hpp"
 #include "courant/running/experiment_changes.hpp"
 #include "courant/running/ladder_report.hpp"
+#include "courant/running/overdue.hpp"
 #include "courant/running/run_files.hpp"
 #include "courant/running/runner.hpp"
 #include "courant/running/unfinished_run.hpp"
@@ -231,9 +232,25 @@ Json sweep(const Json& head, std::span<const SweepCase> cases,
     written = Clock::now();
   };
   write();
+  const auto close = [&] {
+    for (Json& row : table["runs"])
+      if (row["status"] == "interrupted" && row["values"].empty()) row["folder"] = "";
+    const bool interrupted = std::ranges::any_of(
+        table["runs"], [](const Json& row) { return row["status"] == "interrupted"; });
+    table["status"] = interrupted ? "interrupted" : "completed";
+  };
+  const Overdue overdue(options.on_overdue ? options.stop : nullptr, [&] {
+    const std::scoped_lock lock(mutex);
+    close();
+    options.on_overdue(table);
+  });
   in_parallel(left.size(), options.threads, [&](std::size_t k) {
     if (options.stop && *options.stop) return;
     const std::size_t i = left[k];
+    {
+      const std::scoped_lock lock(mutex);
+      table["runs"][i]["message"] = "interrupted";  // until it has ended
+    }
     Json entry = outcome(cases[i], action, options.stop);
     const std::scoped_lock lock(mutex);
     Json& row = table["runs"][i];
@@ -245,11 +262,7 @@ Json sweep(const Json& head, std::span<const SweepCase> cases,
     if (Clock::now() - written > often) write();
     if (options.on_progress) options.on_progress(ended, cases.size());
   });
-  for (Json& row : table["runs"])
-    if (row["message"] == kDidNotBegin) row["folder"] = "";
-  const bool interrupted = std::ranges::any_of(
-      table["runs"], [](const Json& row) { return row["status"] == "interrupted"; });
-  table["status"] = interrupted ? "interrupted" : "completed";
+  close();
   write();
   return table;
 }

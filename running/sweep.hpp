@@ -45,6 +45,9 @@ struct SweepOptions {
   const std::atomic<bool>* stop = nullptr;  // set by someone else: no further case begins
   // After each case, from one thread at a time, with the cases that have ended.
   std::function<void(std::size_t ended, std::size_t count)> on_progress = {};
+  // Once it is asked to stop and cases do not end (Overdue): ends the program. The table is that of the cases that have
+  // ended.
+  std::function<void(const Json& table)> on_overdue = {};
   // The folder in which the table is, and is kept up to date; null for a sweep without files.
   const ResultFolder* folder = nullptr;
   // The table of an earlier sweep with the same head that goes on: what ended in it is not done again.
