@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <ostream>
+#include <stdexcept>
 
 #include "courant/cli/command.hpp"
 #include "courant/cli/force.hpp"
@@ -40,13 +41,19 @@ std::optional<Figure> figure_of_table(const std::filesystem::path& folder) {
   const auto read = [&](const char* file) {
     return file_exists(folder / file) ? read_json(folder / file) : Json();
   };
-  if (is_ensemble_folder(folder)) return ensemble_figure(read_ensemble_tables(folder));
+  const auto refuse = [&] {
+    throw RunFileError(folder.string() +
+                       ": its table is not one of a sweep, a study or an ensemble.");
+  };
   try {
+    if (is_ensemble_folder(folder)) return ensemble_figure(read_ensemble_tables(folder));
     if (const Json sweep = read("sweep.json"); !sweep.is_null()) return sweep_figure(sweep);
     if (const Json study = read("study.json"); !study.is_null())
       return study_figure(read_study_report(study));
   } catch (const Json::exception&) {
-    throw RunFileError(folder.string() + ": its table is not one of a sweep or a study.");
+    refuse();
+  } catch (const std::invalid_argument&) {  // a column is missing
+    refuse();
   }
   return std::nullopt;
 }
