@@ -227,7 +227,9 @@ Json record(const std::optional<Record>& value) {
 
 template <class Record>
 void read_record(const Json& json, std::optional<Record>& value) {
-  if (!json.is_null()) read_record(json, value.emplace());
+  if (json.is_null()) return;
+  value = Record();
+  read_record(json, *value);
 }
 
 std::string dumped(const Json& json) {

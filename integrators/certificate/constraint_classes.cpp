@@ -146,7 +146,7 @@ std::optional<ConstraintClasses> constraint_classes(const ImplicitSystem& system
   if (ladder.constraints.empty() && ladder.gauge_dimension == 0 && structure->port_size() == 0) {
     ConstraintClasses none;
     none.degrees_of_freedom_up_to_gauge = ladder.degrees_of_freedom;
-    none.brackets.emplace();
+    none.brackets = ConstraintClasses::Brackets();
     return none;
   }
   const VectorXd& x = ladder.point.x;
