@@ -9,6 +9,7 @@
 #include "courant/core/linear/solver_choice.hpp"
 #include "courant/core/linear/sparse_rank_decision.hpp"
 #include "courant/core/linear/uncertain_rank.hpp"
+#include "courant/core/numbers/uncertain.hpp"
 #include "courant/structures/dirac_structure.hpp"
 #include "courant/structures/dirac_system.hpp"
 
