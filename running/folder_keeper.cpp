@@ -15,7 +15,9 @@ void FolderKeeper::check(const Experiment& experiment) {
 const Checkpoint* FolderKeeper::begin(const Experiment& experiment) {
   format_ = experiment.output.format;
   folder_.emplace(path_, existing_, experiment);
-  return folder_->checkpoint() ? &*folder_->checkpoint() : nullptr;
+  if (folder_->checkpoint()) return &*folder_->checkpoint();
+  folder_->remove_rows();
+  return nullptr;
 }
 
 void FolderKeeper::refuse_checkpoint(const std::string& what) const {

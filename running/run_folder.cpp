@@ -158,6 +158,15 @@ RunFolder::RunFolder(fs::path path, ExistingRun existing_run, const Experiment& 
 
 fs::path RunFolder::checkpoint_file() const { return path() / "checkpoint.json"; }
 
+void RunFolder::remove_rows() const {
+  const Json experiment = json_in(path() / "experiment.json");
+  std::vector<fs::path> own;
+  for (const char* name : {"trajectory.csv", "trajectory.npy", "events.csv"})
+    if (const fs::path file = path() / name; has_entry(file) && is_own(file, experiment))
+      own.push_back(file);
+  remove_files(own);
+}
+
 void RunFolder::write_checkpoint(const Checkpoint& checkpoint) const {
   folder_.require_still_there();
   courant::write_checkpoint(checkpoint_file(), checkpoint);

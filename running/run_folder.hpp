@@ -46,6 +46,8 @@ class RunFolder {
   // Where a run goes on; nothing if it begins.
   const std::optional<Checkpoint>& checkpoint() const { return run_.checkpoint; }
   std::filesystem::path checkpoint_file() const;
+  // Removes the rows of a run that begins anew. Throws UnusableFolder where they cannot be removed.
+  void remove_rows() const;
   // Throw OutputError, also where another folder has its name by now. The first summary reserves room on the disk
   // for one that says why the run ended, which is written even when all else is full.
   void write_checkpoint(const Checkpoint& checkpoint) const;
