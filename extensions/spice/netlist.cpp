@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <stdexcept>
 
 #include "courant/core/words/message.hpp"
@@ -134,8 +135,16 @@ class Import {
            1.0;
   }
 
+  // One note of what is so on several lines, or on a line of a subcircuit that is used more than once.
   void note(int line, const std::string& what) {
-    notes_.push_back({"line " + std::to_string(line), what});
+    std::vector<std::string>& lines = lines_of_notes_[what];
+    const std::string number = std::to_string(line);
+    if (std::ranges::find(lines, number) != lines.end()) return;
+    lines.push_back(number);
+    if (lines.size() == 1)
+      notes_.push_back({"line " + number, what});
+    else
+      std::ranges::find(notes_, what, &Problem::what)->where = "lines " + in_words(lines);
   }
 
   double value_of(const InitialPotential& initial) const {
@@ -391,6 +400,7 @@ class Import {
 
   LineProblems problems_{"the netlist"};
   std::vector<Problem> notes_;
+  std::map<std::string, std::vector<std::string>> lines_of_notes_;
   Deck deck_;
   std::string title_;
   NetlistCircuit circuit_;

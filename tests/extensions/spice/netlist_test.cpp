@@ -556,6 +556,19 @@ BOOST_AUTO_TEST_CASE(what_is_wrong_with_the_network_is_told_by_line) {
   refused(".param r={r+1}\n" + source + "C1 a 0 {r}", "line 2: unknown parameter \"r\"");
 }
 
+BOOST_AUTO_TEST_CASE(what_is_so_of_several_elements_is_noted_once) {
+  std::vector<Problem> notes;
+  import_netlist(
+      "t\nV1 vdd 0 3\n.subckt inv i o vdd\nMN o i 0 0 nm W=2u L=1u\nMP o i vdd vdd pm W=4u "
+      "L=1u\n.ends\n"
+      "X1 a b vdd inv\nX2 b c vdd inv\nR1 a 0 1k\nC1 c 0 1p\n"
+      ".model nm NMOS(TOX=20n)\n.model pm PMOS(TOX=20n)\n.tran 1n 1u uic\n",
+      &notes);
+  BOOST_TEST_REQUIRE(notes.size() == 1u);
+  BOOST_TEST(notes[0].where == "lines 4 and 5");
+  BOOST_TEST(notes[0].what.starts_with("the capacitance of the oxide is constant here"));
+}
+
 BOOST_AUTO_TEST_SUITE_END()
 
 }  // namespace courant
