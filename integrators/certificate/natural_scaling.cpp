@@ -1,9 +1,13 @@
 #include "courant/integrators/certificate/natural_scaling.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <random>
 #include <utility>
+
+#include "courant/core/numbers/uncertain.hpp"
 
 namespace courant {
 namespace {
@@ -27,6 +31,30 @@ class Components {
  private:
   std::vector<Index> parent_;
 };
+
+// How large the terms of the equations that an unknown is strong in let it be; infinite where they tell nothing. The
+// voltage of a switch that is closed is the difference of two of 3 V, whatever currents elsewhere make of its unit.
+VectorXd told_by_terms(const NaturalScaling& units, const Linearization& at) {
+  constexpr double strong = 0.1;       // of the strongest in equilibrated equations
+  constexpr double round_off = 1e-10;  // in natural units: terms that tell nothing
+  constexpr double none = std::numeric_limits<double>::infinity();
+  const Index n = units.scaled.cols();
+  VectorXd most = VectorXd::Constant(n, none);
+  if (at.value_error.size() != at.value.size()) return most;
+  for (Index j = 0; j < n; ++j) {
+    double strongest = 0.0, told = 0.0;
+    for (SparseMatrixXd::InnerIterator it(units.scaled, j); it; ++it)
+      strongest = std::max(strongest, std::fabs(it.value()));
+    for (SparseMatrixXd::InnerIterator it(units.scaled, j); it; ++it) {
+      if (std::fabs(it.value()) < strong * strongest) continue;
+      const double derivative =
+          std::fabs(it.value()) / (units.row_scale[it.row()] * units.column_scale[j]);
+      told = std::max(told, at.value_error[it.row()] / Uncertain::unit / derivative);
+    }
+    if (told > round_off * units.column_scale[j]) most[j] = told;
+  }
+  return most;
+}
 
 }  // namespace
 
@@ -111,6 +139,7 @@ double NaturalScaling::defect(const VectorXd& value, const VectorXd& nominal) co
 SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
                                  const VectorXd& nominal, const Linearization& at) {
   constexpr double vanishing = 1e-4;  // in natural units
+  constexpr double far = 1e3;
   SparseMatrixXd magnitude = at.jacobian.cwiseAbs();
   std::mt19937 generator(20250613);
   std::uniform_real_distribution<double> uniform(-0.1, 0.1);
@@ -138,11 +167,12 @@ SparseMatrixXd generic_magnitude(const LinearizableMap& map, const VectorXd& y,
       logarithm[component(j)] += std::log(size[j]);
     }
     VectorXd move = nominal;
+    const VectorXd most = told_by_terms(units, at);
     for (Index j = 0; j < y.size(); ++j) {
       const Index c = component(j);
-      if (size[j] < vanishing)
-        move[j] =
-            units.column_scale[j] * (count[c] > 0.0 ? std::exp(logarithm[c] / count[c]) : 1.0);
+      if (size[j] >= vanishing) continue;
+      move[j] = units.column_scale[j] * (count[c] > 0.0 ? std::exp(logarithm[c] / count[c]) : 1.0);
+      if (move[j] > far * most[j]) move[j] = most[j];
     }
     include(move);
   }

@@ -1,5 +1,7 @@
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "courant/reading/experiment.hpp"
 #include "courant/running/consistent_start.hpp"
@@ -8,6 +10,7 @@ namespace courant {
 // Mistakes that these cases have to notice:
 //  * a junction without charge is taken for the edge of a switch
 //  * on the way to derivatives of a start voltages of junctions move by volts, and no start is reached
+//  * a transistor without voltage is looked at with one of 10⁶ V, which conductances of 10⁻¹² S would need to matter
 //  * around a start, in units of what junctions conduct by elsewhere, numbers leave the range of doubles
 BOOST_AUTO_TEST_SUITE(junction_starts_test)
 
@@ -95,6 +98,43 @@ BOOST_AUTO_TEST_CASE(a_differential_pair_starts_from_nothing) {
        element("resistor", "RB2", "b2", "0", 1e3), transistor("Q1", "c1", "b1", "e", more),
        transistor("Q2", "c2", "b2", "e", more), element("resistor", "RC1", "p", "c1", 1e4),
        element("resistor", "RC2", "p", "c2", 1e4), element("resistor", "RE", "e", "n", 1e4)});
+}
+
+// Two of the transistors are without voltage, and nodes conduct by the leaks of junctions alone.
+BOOST_AUTO_TEST_CASE(a_ring_of_inverters_starts_from_its_charges) {
+  Json elements = {element("voltage-source", "VDD", "vdd", "0", 3)};
+  const std::vector<std::vector<const char*>> inverters = {{"N1", "P1", "a", "b", "DN1", "DP1"},
+                                                           {"N2", "P2", "b", "c", "DN2", "DP2"},
+                                                           {"N3", "P3", "c", "a", "DN3", "DP3"}};
+  const auto channel = [&](const char* name, const char* gate, const char* drain, const char* well,
+                           const char* polarity, double threshold, double conductance) {
+    elements.push_back({{"type", "mos-transistor"},
+                        {"name", name},
+                        {"drain", drain},
+                        {"gate", gate},
+                        {"source", well},
+                        {"bulk", well},
+                        {"polarity", polarity},
+                        {"threshold", threshold},
+                        {"transconductance", conductance},
+                        {"modulation", 0.05}});
+  };
+  const auto junction = [&](const char* name, const char* from, const char* to) {
+    Json diode = element("diode", name, from, to, nullptr);
+    diode.erase("value");
+    diode.update({{"saturation", 1e-14}, {"thermal_voltage", 0.02586492}, {"leak", 1e-12}});
+    elements.push_back(diode);
+  };
+  for (const auto& inverter : inverters) {
+    channel(inverter[0], inverter[2], inverter[3], "0", "n", 0.7, 2.2e-4);
+    junction(inverter[4], "0", inverter[3]);
+    channel(inverter[1], inverter[2], inverter[3], "vdd", "p", -0.7, 2e-4);
+    junction(inverter[5], inverter[3], "vdd");
+  }
+  for (const auto& [name, node] :
+       std::vector<std::pair<const char*, const char*>>{{"C1", "a"}, {"C2", "b"}, {"C3", "c"}})
+    elements.push_back(element("capacitor", name, node, "0", 1e-14));
+  check_starts({"0", "vdd", "b", "a", "c"}, elements, {{"q_C1", 0}, {"q_C2", 3e-14}, {"q_C3", 0}});
 }
 
 BOOST_AUTO_TEST_SUITE_END()
