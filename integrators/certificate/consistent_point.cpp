@@ -346,6 +346,8 @@ std::optional<Zero> ConsistentPoint::find_above(const ConsistentJet& from,
   for (Index level = from.level() - 1; level >= 0; --level) {
     Mobility above = mobility(from, false);
     above.frozen = from.array().unknown_count(level);
+    // Linear equations have the same derivatives everywhere.
+    if (level == from.level() - 1) above.magnitude = F(from.zero().y).jacobian.cwiseAbs();
     Zero zero = find_zero(F, from.zero().y, above);
     if (!zero.found || !is_met(F(zero.y))) continue;
     zero.uncertainty.head(above.frozen) =
