@@ -63,9 +63,7 @@ std::vector<Index> ConstrainFirstProjection::predicted_groups(
 
 std::array<double, 4> ConstrainFirstProjection::scales(const State& before, double h,
                                                        double besides) {
-  // A start at zero, as of a circuit at rest, has the size of its first step.
-  const double given = std::max(largest(before.x), besides);
-  const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
+  const double size = coordinate_scale(before, h, besides);
   return {size, size / std::fabs(h), auxiliary_scale(largest(before.z), size), size};
 }
 

@@ -91,9 +91,7 @@ void MultiplierSolver::begin(const State& before, double h) {
     for (Index i = 0; i * functions_.unknowns < u_.size(); ++i)
       for (const MultiplierFunctions::Block& block : functions_.blocks)
         begun(block, unknowns(i) + block.first);
-  // A start at zero has the size of its first step.
-  const double given = largest(before.x);
-  const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
+  const double size = coordinate_scale(before, h);
   // A multiplier is known as well as the point is that it moves, which goes with h.
   const double* in[] = {before.x.data(), &h, &before.t, u_.data()};
   functions_.middle.value_and_jacobian(in, middle_.data());

@@ -1,7 +1,5 @@
 #include "courant/integrators/methods/verlet_steps.hpp"
 
-#include <algorithm>
-#include <cmath>
 #include <utility>
 
 #include "courant/core/expressions/expr_vectors.hpp"
@@ -63,9 +61,7 @@ class VerletSteps::Trajectory final : public Stepper {
       begin();
     else
       predictor_.predict(y);
-    // A start at zero has the size of its first step.
-    const double given = largest(before.x);
-    const double size = given > 0.0 ? given : std::fabs(h) * largest(before.v);
+    const double size = coordinate_scale(before, h);
     const double scales[] = {size, auxiliary_scale(largest(before.z), size)};
     const Inputs in(y.data(), {before.x.data(), basis_.data(), &h, &before.t});
     solver_.solve_connected(in, scales, begin, {before.t, h}, statistics_);

@@ -191,6 +191,11 @@ std::string StepSolver::surplus() const {
 
 double auxiliary_scale(double auxiliary, double state) { return 1e7 * auxiliary + 1e-3 * state; }
 
+double coordinate_scale(const State& before, double h, double besides) {
+  const double given = std::max(largest(before.x), besides);
+  return given > 0.0 ? given : std::fabs(h) * largest(before.v);
+}
+
 double largest(const VectorXd& x) {
   PairMaximum result;
   for_each_pair(0, x.size(), [&]<class Numbers>(Index i, Numbers) {

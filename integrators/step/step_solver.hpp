@@ -137,6 +137,10 @@ class StepSolver {
 // round-off.
 double auxiliary_scale(double auxiliary, double state);
 
+// What a step measures coordinates by: the largest of those of the state, and `besides`, a size of others. A start at zero,
+// as of a circuit at rest, has the size of its first step.
+double coordinate_scale(const State& before, double h, double besides = 0.0);
+
 // ‖x‖_∞, 0 for an empty vector.
 double largest(const VectorXd& x);
 
