@@ -312,6 +312,7 @@ class StartSearch {
         guess_(first_guess()),
         weight_(
             initial_.x.given.cast<double>().matrix().cwiseProduct(initial_.cost_of_coordinates())),
+        stages_(start_stages(experiment, guess_)),
         decider_(decider),
         equations_(std::make_shared<const ChartEquations>(experiment.model.system)),
         in_digits_(equations_in_digits(equations_, decider)),
@@ -499,8 +500,7 @@ class StartSearch {
 
   // How far what is nearest first of all, the positions, is from what is given.
   double moved_first(const State& point) const {
-    const std::vector<NearestStart::Stage> stages = start_stages(experiment_, guess_);
-    return stages.empty() ? 0.0 : stages.front()(point).of(point);
+    return stages_.empty() ? 0.0 : stages_.front()(point).of(point);
   }
 
   // The nearest start of the last level of a ladder, which has one; that of the ladder if it is none.
@@ -508,7 +508,7 @@ class StartSearch {
     if (ladder.jet.size() == 0) return ladder;
     const InitialGuess guess = holding(more_is_given() ? with_what_follows() : guess_,
                                        initial_.x.held, initial_.velocity.held, initial_.z.held);
-    const NearestStart start(equations_, guess, ladder, start_stages(experiment_, guess_));
+    const NearestStart start(equations_, guess, ladder, stages_);
     if (start.outcomes().empty()) return met(guess, ladder, MetTo::four_digits);
     if (!start.is_consistent()) {
       ConsistentStart there = met(guess, ladder, MetTo::four_digits);
@@ -556,6 +556,7 @@ class StartSearch {
   Flags are_velocities_;  // of the components of v
   InitialGuess guess_;
   VectorXd weight_;  // of the coordinates that are given
+  std::vector<NearestStart::Stage> stages_;
   Decider decider_;
   std::shared_ptr<const ChartEquations> equations_;
   std::shared_ptr<const JetEquations> in_digits_;

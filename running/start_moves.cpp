@@ -52,15 +52,15 @@ struct GivenPart {
   }
   // Zeros alone have no size: they are measured by 1.
   double round_off() const { return size() > 0.0 ? 1e-9 * (size() + norm(found)) : 1e-15; }
-  // The numbers that moved most, in words; not those whose movement is round-off of theirs.
+  // The numbers that moved most, in words; not those that moved by round-off next to these.
   std::string largest() const {
     constexpr std::size_t most = 3;
-    constexpr double round_off = 1e-12;
+    constexpr double negligible = 1e-12;  // of the whole move
     std::vector<std::size_t> order(given.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
     const auto by = [&](std::size_t i) { return -std::fabs(found[i] - given[i]); };
     std::ranges::stable_sort(order, {}, by);
-    const double least = round_off * moved();
+    const double least = negligible * moved();
     std::string text;
     for (std::size_t k = 0; k < std::min(most, order.size()); ++k) {
       const std::size_t i = order[k];
