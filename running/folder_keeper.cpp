@@ -16,7 +16,7 @@ const Checkpoint* FolderKeeper::begin(const Experiment& experiment) {
   format_ = experiment.output.format;
   folder_.emplace(path_, existing_, experiment);
   if (folder_->checkpoint()) return &*folder_->checkpoint();
-  folder_->remove_rows();
+  if (existing_ == ExistingRun::resume) folder_->remove_rows();
   return nullptr;
 }
 
