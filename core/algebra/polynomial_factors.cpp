@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <complex>
-#include <functional>
 #include <map>
 #include <optional>
 #include <set>
 #include <utility>
 
+#include "courant/core/algebra/polynomial_quotient.hpp"
 #include "courant/core/linear/generalized_eigenvalues.hpp"
 
 namespace courant {
@@ -46,16 +46,8 @@ Polynomial linear_sum(Polynomial a, const Polynomial& b, double factor) {
   return without_small_terms(std::move(a), size);
 }
 
-Monomial leading_monomial(const Polynomial& a) {
-  return std::ranges::min_element(a,
-                                  [](const auto& one, const auto& other) {
-                                    return leads(one.first, other.first, std::less<int>());
-                                  })
-      ->first;
-}
-
 Polynomial with_leading_one(Polynomial a) {
-  const double lead = a.at(leading_monomial(a));
+  const double lead = leading_term(a).second;
   for (auto& [monomial, c] : a) c /= lead;
   return a;
 }
@@ -64,14 +56,13 @@ Polynomial with_leading_one(Polynomial a) {
 std::optional<Polynomial> exact_quotient(Polynomial a, const Polynomial& b) {
   constexpr int most_steps = 200;
   const double size = largest_coefficient(a);
-  const Monomial lead = leading_monomial(b);
-  const double scale = b.at(lead);
+  const auto& [lead, scale] = leading_term(b);
   Polynomial result;
   for (int steps = 0; !a.empty(); ++steps) {
-    const Monomial highest = leading_monomial(a);
+    const auto [highest, coefficient_of_a] = leading_term(a);
     if (steps == most_steps || !divides(lead, highest)) return std::nullopt;
     const Monomial by = product(highest, lead, -1);
-    const double c = a.at(highest) / scale;
+    const double c = coefficient_of_a / scale;
     result.emplace(by, c);
     for (const auto& [term, coefficient] : b) add_term(a, product(term, by), -c * coefficient);
     a.erase(highest);
@@ -116,17 +107,17 @@ std::optional<Polynomial> polynomial_root(Polynomial a) {
     }
     return result;
   };
-  const Monomial lead = leading_monomial(a);
+  const auto [lead, square] = leading_term(a);
   const std::optional<Monomial> first = half(lead);
-  if (!first || a.at(lead) < 0.0) return std::nullopt;
-  const double scale = std::sqrt(a.at(lead));
+  if (!first || square < 0.0) return std::nullopt;
+  const double scale = std::sqrt(square);
   Polynomial root = {{*first, scale}};
   a.erase(lead);
   for (int steps = 0; !a.empty(); ++steps) {
-    const Monomial highest = leading_monomial(a);
+    const auto [highest, coefficient_of_a] = leading_term(a);
     if (steps == most_steps || !divides(*first, highest)) return std::nullopt;
     const Monomial next = product(highest, *first, -1);
-    const double c = a.at(highest) / (2.0 * scale);
+    const double c = coefficient_of_a / (2.0 * scale);
     if (root.contains(next)) return std::nullopt;
     for (const auto& [term, coefficient] : root)
       add_term(a, product(term, next), -2.0 * c * coefficient);

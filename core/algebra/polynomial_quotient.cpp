@@ -14,10 +14,6 @@ bool is_above(const Polynomial::value_type& a, const Polynomial::value_type& b) 
   return leads(a.first, b.first, std::less<int>());
 }
 
-std::pair<Monomial, double> highest(const Polynomial& polynomial) {
-  return *std::ranges::min_element(polynomial, is_above);
-}
-
 const Monomial& lowest(const Polynomial& polynomial) {
   return std::ranges::max_element(polynomial, is_above)->first;
 }
@@ -58,6 +54,10 @@ bool make_sine(Polynomial& polynomial, int sine, int cosine) {
 
 }  // namespace
 
+const Polynomial::value_type& leading_term(const Polynomial& polynomial) {
+  return *std::ranges::min_element(polynomial, is_above);
+}
+
 Polynomial in_cosines(Polynomial polynomial, const Circles& circles) {
   for (const auto& [sine, cosine] : circles)
     while (replace_sine(polynomial, sine, cosine)) {
@@ -77,11 +77,11 @@ std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b, const Circ
   if (b.empty()) return std::nullopt;
   // The lowest term of a product is that of the lowest ones.
   if (circles.empty() && !a.empty() && !divides(lowest(b), lowest(a))) return std::nullopt;
-  const auto [lead, scale] = highest(b);
+  const auto& [lead, scale] = leading_term(b);
   Polynomial result;
   for (int steps = 0; !a.empty(); ++steps) {
     if (steps > most_steps) return std::nullopt;
-    const auto [monomial, c] = highest(a);
+    const auto [monomial, c] = leading_term(a);
     const Monomial multiplier = product(monomial, lead, -1);
     if (std::ranges::any_of(multiplier, [](const auto& power) { return power.second < 0; }))
       return std::nullopt;

@@ -16,6 +16,9 @@ Polynomial in_cosines(Polynomial polynomial, const Circles& circles);
 // A term with its negative times cos² becomes one with sin²: a - a cos² is a sin².
 Polynomial with_sines(Polynomial polynomial, const Circles& circles);
 
+// That of highest degree; of a polynomial with terms.
+const Polynomial::value_type& leading_term(const Polynomial& polynomial);
+
 // a/b, if the division leaves nothing in a hundred steps. Both without negative powers, in cosines.
 std::optional<Polynomial> quotient(Polynomial a, const Polynomial& b, const Circles& circles = {});
 
