@@ -27,8 +27,9 @@ constexpr double kNear = 0.1;
 constexpr double kPathTolerance = 1e-4;
 constexpr double kRoundOff = 1e-13;
 
-// A displacement is measured by its own size, but not by less than these parts of the largest one
-// and of the coordinates.
+// A displacement is measured by its own size, or by that which it had in the steps before, if that is larger: at a
+// turning point of a coordinate a displacement is small, and of many coordinates one always turns. But not by less than
+// these parts of the largest one and of the coordinates.
 constexpr double kLeastOfAll = 1e-3;
 constexpr double kLeastOfState = 1e-8;
 // What is not a displacement is measured by its own size where damped steps need it, and by this part
@@ -113,7 +114,9 @@ double StepContinuation::largest_part(const VectorXd& change, double sigma, doub
     const double moved = std::fabs(change[static_cast<Index>(k)]);
     if (contained_[k] >= layout_.displacements || !(moved > kRoundOff * size)) continue;
     const double before = sigma * u_[contained_[k]], after = before - change[static_cast<Index>(k)];
-    result = std::max(result, moved / (std::max(std::fabs(before), std::fabs(after)) + least));
+    const double own =
+        std::max({std::fabs(before), std::fabs(after), sigma * usual_[contained_[k]]});
+    result = std::max(result, moved / (own + least));
   }
   return std::isfinite(total) ? result : std::numeric_limits<double>::infinity();
 }
@@ -241,7 +244,8 @@ bool StepContinuation::reaches(double next, double size, Result& result) {
 }
 
 StepContinuation::Result StepContinuation::follow(VectorXd& y, const Inputs& parameters,
-                                                  double size) {
+                                                  double size, const VectorXd& usual) {
+  usual_ = usual;
   parameters.require_count(equations_.input_count(), equations_.name());
   in_ = parameters;
   in_.set_unknowns(y_.data());

@@ -51,8 +51,8 @@ class StepContinuation {
   };
   // y: at first what is predicted for σ = 1 by the state alone, in the end y(1), or y(reached).
   // `parameters`: of the equations; the place of their unknowns is not used. `size`: of the coordinates of
-  // the state.
-  Result follow(VectorXd& y, const Inputs& parameters, double size);
+  // the state. `usual`: the sizes of displacements in the steps before, 0 where there are none.
+  Result follow(VectorXd& y, const Inputs& parameters, double size, const VectorXd& usual);
 
  private:
   struct Point {
@@ -89,6 +89,7 @@ class StepContinuation {
   Inputs in_;                         // y_ and the parameters, with part_of_h_ for h
   double h_ = 0.0, part_of_h_ = 0.0;  // σ h
   int orientation_ = 0;               // of the curve so far
+  VectorXd usual_;                    // sizes of displacements
   bool is_determined_ = true;         // whether the matrix of the step has full rank
   bool vanishes_ = true;              // as in Attempt
   Point point_;                       // the last one

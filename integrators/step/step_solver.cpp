@@ -128,7 +128,7 @@ void StepSolver::connect(bool converged, const Inputs& in, const double* scales,
   ++statistics.confirmations;
   const VectorXd start = y_;
   const auto [arrived, reached, arcs, begins_at_state, iterations] =
-      continuation_->follow(y_, in, scales[0]);
+      continuation_->follow(y_, in, scales[0], usual_);
   is_mild_ = arrived && (arcs == 1 || (arcs <= kFewArcs && is_straight(start)));
   statistics.iterations += iterations;
   statistics.factorizations += iterations;

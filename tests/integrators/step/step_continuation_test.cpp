@@ -25,7 +25,8 @@ struct Followed {
 
 Followed follow(StepContinuation& curve, double h, double prediction) {
   Followed followed{VectorXd::Constant(1, prediction), {}};
-  followed.result = curve.follow(followed.y, Inputs(nullptr, {&h}), 1.0);
+  followed.result =
+      curve.follow(followed.y, Inputs(nullptr, {&h}), 1.0, VectorXd::Zero(followed.y.size()));
   return followed;
 }
 
