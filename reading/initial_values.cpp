@@ -315,6 +315,13 @@ bool rest(const Model& model, InitialValues& values) {
 
 }  // namespace
 
+std::vector<Index> indices(const Flags& flags) {
+  std::vector<Index> list;
+  for (Index i = 0; i < flags.size(); ++i)
+    if (flags[i]) list.push_back(i);
+  return list;
+}
+
 PartialVector::PartialVector(Index size)
     : values(VectorXd::Zero(size)),
       given(Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(size, false)),

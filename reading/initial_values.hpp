@@ -9,11 +9,17 @@
 
 namespace courant {
 
+// Yes or no for each entry of a vector.
+using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
+
+// The places of those that say yes, ascending.
+std::vector<Index> indices(const Flags& flags);
+
 // Entries of a vector that are given, and that must not be moved; 0, or where to begin, where they are not given.
 struct PartialVector {
   VectorXd values;
-  Eigen::Array<bool, Eigen::Dynamic, 1> given;
-  Eigen::Array<bool, Eigen::Dynamic, 1> held;
+  Flags given;
+  Flags held;
 
   explicit PartialVector(Index size = 0);
 };

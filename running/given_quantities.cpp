@@ -19,8 +19,6 @@
 namespace courant {
 namespace {
 
-using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
-
 constexpr int kMostCorrections = 50;
 // A part of a value that is round-off.
 constexpr double kSameValue = 1e-9;

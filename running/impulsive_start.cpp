@@ -24,8 +24,6 @@ constexpr double kLeastSine = 1e-9;
 // Next to how much constraints are violated: an impulse that leaves more of it leads to none of their points.
 constexpr double kMostLeft = 0.5;
 
-using Flags = Eigen::Array<bool, Eigen::Dynamic, 1>;
-
 // Columns: the directions of Δx (n) in which what is kept does not move, none where the residual has no derivative.
 MatrixXd impulse_directions(const Experiment& experiment, const Flags& kept, const State& at) {
   const ImplicitSystem& system = *experiment.model.system;
