@@ -40,21 +40,32 @@ Expr left_side(const BoundaryCondition& condition, const SymbolTable& symbols) {
   return evaluate(condition.formula, symbols) - evaluate(condition.value, symbols);
 }
 
-// The key of an entry is a formula, or the name of an array whose entries have the values.
-void read_condition(const std::string& key, const JsonReader& value, const EndVariables& at,
-                    const SymbolTable& symbols, std::vector<BoundaryCondition>& conditions) {
+using KeyedFormulas = std::vector<std::pair<std::string, WrittenFormula>>;
+
+// The formulas of an entry by the key, or, where the key is the name of an array, by the names of its entries; none where
+// there are not as many as names.
+KeyedFormulas keyed_formulas(const std::string& key, const JsonReader& value,
+                             const SymbolTable& symbols) {
   const Symbol* symbol = symbols.find(key);
   const auto values = read_formulas(value);
-  if (!values) return;
+  if (!values) return {};
   std::vector<std::string> names = {key};
   if (symbol && !symbol->shape.empty()) names = Declaration{key, symbol->shape}.element_names();
   if (values->formulas.size() != names.size()) {
     value.problem("has " + std::to_string(values->formulas.size()) + " values; expected " +
                   std::to_string(names.size()) + ", for " + key);
-    return;
+    return {};
   }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const BoundaryCondition condition{names[i], {names[i], value.pointer()}, values->formulas[i]};
+  KeyedFormulas result;
+  for (std::size_t i = 0; i < names.size(); ++i) result.emplace_back(names[i], values->formulas[i]);
+  return result;
+}
+
+// The key of an entry is a formula, or the name of an array whose entries have the values.
+void read_condition(const std::string& key, const JsonReader& value, const EndVariables& at,
+                    const SymbolTable& symbols, std::vector<BoundaryCondition>& conditions) {
+  for (const auto& [name, formula] : keyed_formulas(key, value, symbols)) {
+    const BoundaryCondition condition{name, {name, value.pointer()}, formula};
     Findings of_key;
     if (!check(condition.formula, symbols, of_key)) {
       for (const Problem& problem : of_key.problems()) value.problem("key, " + problem.what);
@@ -79,6 +90,31 @@ std::vector<BoundaryCondition> read_conditions(const std::optional<JsonReader>& 
   const SymbolTable symbols = at.words(model, named);
   for (const auto& [key, entry] : *entries) read_condition(key, entry, at, symbols, conditions);
   return conditions;
+}
+
+std::optional<Index> place_of(const std::string& coordinate, const Model& model) {
+  const auto& names = model.system->names().coordinates;
+  const auto found = std::ranges::find(names, coordinate);
+  if (found == names.end()) return std::nullopt;
+  return found - names.begin();
+}
+
+KeyedFormulas read_guess(const JsonReader& value, const Model& model) {
+  KeyedFormulas guess;
+  const auto entries = value.entries();
+  if (!entries) return guess;
+  const EndVariables at(model);
+  const SymbolTable symbols = at.words(model, {});
+  Graph graph;
+  const SymbolTable of_time = model.vocabulary.of_time().symbols({.t = graph.variable("t")});
+  for (const auto& [key, entry] : *entries)
+    for (const auto& [name, formula] : keyed_formulas(key, entry, symbols)) {
+      if (!place_of(name, model))
+        entry.problem("key, \"" + key + "\" is no coordinate; expected one");
+      else if (check(formula, of_time, entry.findings()))
+        guess.emplace_back(name, formula);
+    }
+  return guess;
 }
 
 bool is_true(const JsonReader& value) {
@@ -149,6 +185,7 @@ std::optional<Boundary> read_boundary(const JsonReader& value, const Model& mode
     if (const auto words = free->elements())
       for (const JsonReader& word : *words)
         if (word.word({"T"})) boundary.has_free_time = true;
+  if (const auto guess = object.optional("guess")) boundary.guess = read_guess(*guess, model);
   if (const auto periodic = object.optional("periodic")) boundary.is_periodic = is_true(*periodic);
   if (const auto continuation = object.optional("continuation"))
     boundary.continuation = read_continuation(*continuation, model);
@@ -157,7 +194,17 @@ std::optional<Boundary> read_boundary(const JsonReader& value, const Model& mode
   if (boundary.initial.empty() && boundary.final.empty() && !boundary.is_periodic &&
       value.findings().clean())
     value.problem("has no conditions; expected \"initial\", \"final\" or \"periodic\"");
+  if (model.final_cost && value.findings().clean() && !boundary.has_transversality(model, true))
+    value.problem(
+        "leaves the final_cost of the system out: conditions at the end contain costates or "
+        "controls; expected conditions on states and t alone");
   return boundary;
+}
+
+void take_guess(const Boundary& boundary, const Model& model, State& state) {
+  const SymbolTable symbols = model.vocabulary.of_time().symbols({.t = Expr(state.t)});
+  for (const auto& [name, formula] : boundary.guess)
+    state.x[*place_of(name, model)] = evaluate(formula, symbols).value();
 }
 
 EndConditions end_conditions(const Boundary& boundary, const Model& model, bool at_end) {
@@ -194,9 +241,12 @@ EndConditions end_conditions(const Boundary& boundary, const Model& model, bool 
                              names[static_cast<std::size_t>(Q.ambient_dimension() + i)] +
                              (at_end ? " at the end" : " at the beginning"));
   if (of_time) result.names.emplace_back("transversality of H at the end");
-  result.formula = [=, bundle = control->bundle](const EndPoint& at) {
+  result.formula = [=, named = boundary.named, bundle = control->bundle](const EndPoint& at) {
     const ExprVector g = given(at);
-    Expr weighted(0.0);
+    Expr weighted =
+        at_end && model.final_cost
+            ? evaluate(*model.final_cost, words_at_end(model, named, at.x, at.v, at.z, at.t))
+            : Expr(0.0);
     for (Index i = 0; i < at.multipliers.size(); ++i)
       weighted = weighted + at.multipliers[i] * g[i];
     ExprVector all = g;

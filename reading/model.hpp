@@ -40,6 +40,8 @@ struct Model {
 
   // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
   bool is_control_problem = false;
+  // Of such a problem: a cost of the state at the end, in states and t, besides the integral.
+  std::optional<WrittenFormula> final_cost = {};
 
   // The table for formulas at (x, v, z, t): the velocity of x is dx/dt = E(x) v.
   SymbolTable symbols(const ExprVector& x, const ExprVector& v, const ExprVector& z,

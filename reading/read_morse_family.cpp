@@ -62,6 +62,8 @@ std::optional<Model> read_optimal_control(ObjectReader& system) {
   const auto dynamics = dynamics_key ? read_formulas(*dynamics_key) : std::nullopt;
   const auto cost_key = system.required("cost");
   const auto cost = cost_key ? read_formula(*cost_key) : std::nullopt;
+  const auto final_key = system.optional("final_cost");
+  const auto final_cost = final_key ? read_formula(*final_key) : std::nullopt;
   const bool abnormal = system.word("extremals") == "abnormal";
   const auto space =
       base ? cotangent_bundle(*base, taken, *system.optional("states")) : std::nullopt;
@@ -77,6 +79,14 @@ std::optional<Model> read_optimal_control(ObjectReader& system) {
                                              .z = graph.variables("u", words.unknowns.size()),
                                              .t = graph.variable("t")});
   bool right = cost && check(*cost, symbols, findings);
+  if (final_cost) {
+    const ExprVector q = graph.variables("q at the end", Q.ambient_dimension());
+    Vocabulary of_states = words;
+    of_states.unknowns = {};
+    right = check(*final_cost, of_states.symbols({.x = q, .t = graph.variable("t at the end")}),
+                  findings) &&
+            right;
+  }
   if (dynamics) {
     const auto count = static_cast<Index>(dynamics->formulas.size());
     const Index N = Q.ambient_dimension(), n = Q.tangent_dimension();
@@ -110,6 +120,7 @@ std::optional<Model> read_optimal_control(ObjectReader& system) {
       .controls = words.unknowns.size(),
       .cost_multiplier = abnormal ? 0.0 : 1.0};
   model.is_control_problem = true;
+  if (!abnormal) model.final_cost = final_cost;
   model.description =
       "optimal control on " + Q.name() + ", " + (abnormal ? "abnormal" : "normal") + " extremals";
   model.system = hamiltonian_system(

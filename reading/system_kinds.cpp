@@ -108,6 +108,8 @@ Registry<Model>& system_kinds() {
                      required_key("dynamics", takes::formulas(),
                                   "f: a formula in states, controls and t for each velocity"),
                      required_key("cost", takes::formula(), "in states, controls and t"),
+                     optional_key("final_cost", takes::formula(),
+                                  "in states and t, at the end of a `boundary`"),
                      default_key("extremals", takes::word({"normal", "abnormal"}), "normal",
                                  "abnormal: E = p f, without the cost"),
                      manifold("of the states")})},

@@ -42,6 +42,10 @@ BoundaryProblem boundary_problem(const Experiment& experiment) {
   problem.method = method.integrator;
   problem.ladder = start;
   problem.guess = method.initial;
+  if (!boundary.guess.empty())
+    problem.guess_at = [boundary, model = experiment.model](State& state) {
+      take_guess(boundary, model, state);
+    };
   problem.h = time.step;
   problem.steps = time.steps;
   problem.segments = boundary.segments;

@@ -39,7 +39,9 @@ struct BoundaryProblem {
   std::shared_ptr<const Integrator> method;
   ConstraintLadder ladder;  // of the method's system near the guess; regular
   State guess;              // of x_0, with t_0
-  double h = 0.0;           // or a guess of it
+  // Changes x of a state to what is guessed of the motion at its time; empty: the motion from the guess of x_0.
+  std::function<void(State&)> guess_at = {};
+  double h = 0.0;  // or a guess of it
   long steps = 0;
   // In how many parts the motion is cut; 0: eight, or one for methods that do not stay on M_f.
   long segments = 0;

@@ -358,7 +358,9 @@ BoundarySolution solve_boundary_problem(const BoundaryProblem& problem,
 BoundarySolution solve_boundary_problem(const BoundaryProblem& problem,
                                         const BoundarySolution& near,
                                         const BoundaryOptions& options) {
-  MotionSearch search(problem, options);
+  BoundaryProblem from = problem;
+  if (!near.nodes.empty()) from.guess = near.nodes.front();
+  MotionSearch search(from, options);
   if (std::ssize(near.nodes) != search.shooting().segments() ||
       near.multipliers.size() != search.shooting().multiplier_count())
     throw std::invalid_argument(

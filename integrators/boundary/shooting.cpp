@@ -93,17 +93,27 @@ std::vector<std::string> Shooting::names() const {
 }
 
 Shooting::Motion Shooting::guess() const {
-  Motion motion{{points_.nearest(problem_.guess)}, problem_.h, VectorXd::Zero(multiplier_count())};
+  Motion motion{{problem_.guess}, problem_.h, VectorXd::Zero(multiplier_count())};
+  place(motion, 0);
   for (std::size_t i = 0; i + 1 < steps_.size(); ++i) {
+    motion.nodes.push_back(motion.nodes.back());
     try {
-      motion.nodes.push_back(end_of(motion, i));
+      motion.nodes.back() = end_of(motion, i);
     } catch (const SolveError&) {
-      motion.nodes.push_back(motion.nodes.back());
     } catch (const std::domain_error&) {
-      motion.nodes.push_back(motion.nodes.back());
     }
+    place(motion, i + 1);
   }
   return motion;
+}
+
+// Takes the node to where the guess has it.
+void Shooting::place(Motion& motion, std::size_t node) const {
+  if (!problem_.guess_at) return;
+  const State last = begin_of(motion, node);
+  State guessed = last;
+  problem_.guess_at(guessed);
+  motion.nodes[node] = points_.moved(last, points_.way(last.x, guessed.x));
 }
 
 Shooting::Bases Shooting::bases(const Motion& motion) const {
@@ -135,7 +145,9 @@ State Shooting::begin_of(const Motion& motion, std::size_t segment) const {
 }
 
 State Shooting::end_of(const Motion& motion, std::size_t segment) const {
-  return problem_.method->advance(begin_of(motion, segment), motion.h, steps_[segment]);
+  State end = problem_.method->advance(begin_of(motion, segment), motion.h, steps_[segment]);
+  points_.require_energy(end);
+  return end;
 }
 
 VectorXd Shooting::joined(const Motion& motion, const Bases& bases,

@@ -31,8 +31,8 @@ class Shooting {
     double h = 0.0;
     VectorXd multipliers = {};  // ν_0, then ν_T
   };
-  // That of the guess; nodes after a step that cannot be made are where it began. Throws SolveError where the first
-  // step fails.
+  // That of the guess; nodes after a step that cannot be made are where it began, unless the problem places them. Throws
+  // SolveError where the first step fails.
   Motion guess() const;
 
   using Bases = std::vector<MatrixXd>;
@@ -87,6 +87,7 @@ class Shooting {
     std::vector<std::string> names_;
   };
 
+  void place(Motion& motion, std::size_t node) const;
   State end_of(const Motion& motion, std::size_t segment) const;
   State begin_of(const Motion& motion, std::size_t segment) const;
   VectorXd joined(const Motion& motion, const Bases& bases, const std::vector<State>& ends) const;

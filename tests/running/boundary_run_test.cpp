@@ -14,6 +14,9 @@ namespace courant {
 //  * what is not solved is run, or completes
 //  * the solution 0 has no size, and is never near enough
 //  * a run whose round-off grows leaves the motion that was found
+//  * a cost at the end is left out, or has the other sign
+//  * a guess of the motion is not looked at
+//  * a control is beyond its barrier
 //  * a parameter of a continuation does not come to its own value
 BOOST_AUTO_TEST_SUITE(boundary_run)
 
@@ -160,6 +163,80 @@ BOOST_AUTO_TEST_CASE(a_free_end_has_the_conditions_of_transversality) {
   BOOST_TEST(std::abs(run.rows.column("t").back() - met) < 1e-9);
 }
 
+// x' = u, ∫ (x² + u²)/2 dt + s x(T)²/2 → min: u = -P x with P' = P² - 1, P(T) = s. With a cost r T of the time too, which is
+// free, the time is that at which E = p u - (x² + u²)/2 is r: for p = -s x at the end, (s² - 1) x(T)²/2.
+BOOST_AUTO_TEST_CASE(a_cost_of_the_end_is_part_of_transversality) {
+  Json document = {{"system",
+                    {{"type", "optimal-control"},
+                     {"parameters", {{"s", 0.5}, {"r", 0}}},
+                     {"states", {"x"}},
+                     {"controls", {"u"}},
+                     {"dynamics", {"u"}},
+                     {"cost", "(x^2 + u^2)/2"},
+                     {"final_cost", "s*x^2/2 + r*t"}}},
+                   {"initial", {{"x", 1}}},
+                   {"boundary", {{"initial", {{"x", 1}}}}},
+                   {"method", {{"type", "discretize-first"}, {"order", 4}}},
+                   {"time", {{"step", 0.02}, {"end", 1}}}};
+  const auto x_at_the_end = [](double s, double T) {
+    return std::cosh(std::atanh(s)) / std::cosh(T + std::atanh(s));
+  };
+  const RunInMemory fixed = ran(document);
+  BOOST_TEST_REQUIRE((fixed.outcome.status == RunStatus::completed), fixed.outcome.message);
+  BOOST_TEST(std::abs(fixed.rows.column("x").back() - x_at_the_end(0.5, 1.0)) < 1e-8);
+
+  document["boundary"]["final"] = {{"p_x", 0}};
+  BOOST_TEST(
+      problem_of(document).starts_with("/boundary: leaves the final_cost of the system out"));
+  document["boundary"].erase("final");
+  document["system"]["final_cost"] = "u";
+  BOOST_TEST(problem_of(document).starts_with("/system/final_cost: column 1: unknown name \"u\""));
+  document["system"]["final_cost"] = "s*x^2/2 + r*t";
+
+  document["boundary"]["free"] = {"T"};
+  const double x = x_at_the_end(0.5, 1.25);
+  document["system"]["parameters"]["r"] = (0.25 - 1.0) * x * x / 2.0;
+  const RunInMemory timed = ran(document);
+  BOOST_TEST_REQUIRE((timed.outcome.status == RunStatus::completed), timed.outcome.message);
+  BOOST_TEST(std::abs(timed.rows.column("x").back() - x) < 1e-7);
+}
+
+// Dubins' car, |u| ≤ 1 by a barrier. From no costate it does not turn; the run from there leads nowhere. Beyond the barrier
+// the equations have solutions too.
+BOOST_AUTO_TEST_CASE(a_guess_of_the_motion_leads_to_it_within_the_barrier_of_a_control) {
+  Json document = {
+      {"system",
+       {{"type", "optimal-control"},
+        {"parameters", {{"mu", 0.01}}},
+        {"states", {"x", "y", "theta"}},
+        {"controls", {"u"}},
+        {"dynamics", {"cos(theta)", "sin(theta)", "u"}},
+        {"cost", "1 - mu*log(1 - u^2)"}}},
+      {"initial", {{"x", 0}, {"y", 0}, {"theta", 0}, {"p_x", 0.8}, {"p_y", 0.5}, {"p_theta", 0.5}}},
+      {"boundary",
+       {{"initial", {{"x", 0}, {"y", 0}, {"theta", 0}}},
+        {"final", {{"x", 3}, {"y", 2}, {"theta", 0}}},
+        {"free", {"T"}},
+        {"guess",
+         {{"x", "3*t/4"}, {"y", "t/2"}, {"theta", "0.6*sin(pi*t/4)"}, {"p_theta", "0.5 - t/4"}}}}},
+      {"method", {{"type", "discretize-first"}}},
+      {"time", {{"step", 0.04}, {"end", 4}}},
+      {"observe", {{"turn", "u"}}}};
+  for (const double mu : {0.01, 0.003}) {
+    document["system"]["parameters"]["mu"] = mu;
+    document["boundary"]["continuation"] = {{"parameter", "mu"}, {"from", 0.1}};
+    const RunInMemory run = ran(document);
+    BOOST_TEST_REQUIRE((run.outcome.status == RunStatus::completed), run.outcome.message);
+    for (const double u : run.rows.column("turn")) BOOST_TEST(std::abs(u) < 1.0);
+    for (const double H : run.rows.column("H")) BOOST_TEST(std::isfinite(H));
+    // Two arcs and what touches both.
+    const double shortest = 2.0 * std::asin(2.0 / 3.0) + std::sqrt(5.0);
+    const double duration = run.rows.column("t").back();
+    BOOST_TEST(duration > shortest);
+    BOOST_TEST(duration < shortest + 3.0 * mu);
+  }
+}
+
 BOOST_AUTO_TEST_CASE(conditions_may_name_observables_velocities_and_arrays) {
   Json document{{"system",
                  {{"type", "mechanical"},
@@ -232,6 +309,10 @@ BOOST_AUTO_TEST_CASE(what_is_no_boundary_problem_is_refused_at_its_place) {
   begins(with("/boundary/periodic", 1), "/boundary/periodic: is 1; expected true or false");
   begins(with("/boundary/segments", 0), "/boundary/segments: is 0; expected");
   begins(with("/boundary", Json::object()), "/boundary: has no conditions");
+  begins(with("/boundary/guess", {{"c", "t"}}),
+         "/boundary/guess/c: key, \"c\" is no coordinate; expected one");
+  begins(with("/boundary/guess", {{"q", "q + t"}}),
+         "/boundary/guess/q: column 1: unknown name \"q\"");
   begins(with("/boundary/continuation", {{"parameter", "d"}, {"from", 0}}),
          "/boundary/continuation/parameter: is \"d\"; expected a parameter");
   begins(with("/boundary/final", {{"q", 0}, {"p_q", 0}}),
