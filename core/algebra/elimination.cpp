@@ -201,23 +201,34 @@ class Tableau {
 
   // Whether a is made of numbers and of parameters that are never zero.
   bool is_never_zero(const Expr& a) const {
-    if (a.is_constant()) return a.value() != 0.0 && std::isfinite(a.value());
-    if (std::find(never_zero_.begin(), never_zero_.end(), a) != never_zero_.end()) return true;
-    const Graph& graph = a.graph();
-    const Node& node = graph.node(a.node());
-    const auto operand = [&](std::uint32_t index) {
-      return is_never_zero(graph.expression(index));
-    };
-    switch (node.op) {
-      case Op::negate:
-      case Op::power:
-        return operand(node.a);
-      case Op::multiply:
-      case Op::divide:
-        return operand(node.a) && operand(node.b);
-      default:
-        return false;
+    std::vector<Expr> left = {a};
+    std::set<std::uint32_t> visited;
+    while (!left.empty()) {
+      const Expr factor = left.back();
+      left.pop_back();
+      if (factor.is_constant()) {
+        if (factor.is_constant(0.0) || !std::isfinite(factor.value())) return false;
+        continue;
+      }
+      if (!visited.insert(factor.node()).second ||
+          std::find(never_zero_.begin(), never_zero_.end(), factor) != never_zero_.end())
+        continue;
+      const Graph& graph = factor.graph();
+      const Node& node = graph.node(factor.node());
+      switch (node.op) {
+        case Op::multiply:
+        case Op::divide:
+          left.push_back(graph.expression(node.b));
+          [[fallthrough]];
+        case Op::negate:
+        case Op::power:
+          left.push_back(graph.expression(node.a));
+          break;
+        default:
+          return false;
+      }
     }
+    return true;
   }
 
   // How many entries may be filled if y_j is taken out of equation i; nothing if it must not be.

@@ -11,6 +11,8 @@
 #include "courant/core/expressions/derivative.hpp"
 #include "courant/core/expressions/function.hpp"
 #include "courant/core/expressions/held_part.hpp"
+#include "courant/core/expressions/series_function.hpp"
+#include "courant/core/expressions/subgraph.hpp"
 #include "courant/core/expressions/taylor.hpp"
 #include "courant/core/expressions/undefined.hpp"
 #include "courant/core/solve/exponentials.hpp"
@@ -42,12 +44,14 @@ Expr of_two_arguments(const Expr& a) { return atan2(a, sqrt(1.0 + a)); }
 Expr choice(const Expr& a) { return select(a < 1.0, sin(a), exp(-a)); }
 Expr power(const Expr& a) { return pow(a, 0.5 * a); }
 Expr product_with_its_root(const Expr& a) { return a * sqrt(a); }
+Expr quotient_of_powers(const Expr& a) { return pow(a, 3) / square(a); }
 
 }  // namespace
 
 BOOST_AUTO_TEST_CASE(every_walk_visits_a_node_once) {
-  for (const auto level : {product_of_functions, sum_of_functions, quotient, square_and_itself,
-                           of_two_arguments, choice, power, product_with_its_root}) {
+  for (const auto level :
+       {product_of_functions, sum_of_functions, quotient, square_and_itself, of_two_arguments,
+        choice, power, product_with_its_root, quotient_of_powers}) {
     const Shared shared(level);
     const ExprVector& x = shared.x;
     const ExprVector y = ExprVector::Constant(1, shared.value);
@@ -58,20 +62,35 @@ BOOST_AUTO_TEST_CASE(every_walk_visits_a_node_once) {
     NormalForm normal(x, {x[0] * x[0] + x[1] * x[1] - 1.0});
     normal(shared.value);
     normal.factors(shared.value);
+    normal.without_factors(shared.value, [](const Expr&) { return false; });
+    normal.eliminated({shared.value}, x.head(1));
+    normal.consequences({shared.value}, x.head(1));
     with_affine_parts(y, x);
     collected(y);
     collected(y, x.head(1));
     divided_difference(y, x, x, 1.0);
     const Elimination elimination(ExprVector::Constant(1, x[1] - shared.value), x, {});
     BOOST_TEST(elimination.pivots.size() <= 1u);
+    Elimination(ExprVector::Constant(1, shared.value * x[1] - 1.0), x.tail(1),
+                {.never_zero = x.head(1)});
     held_part(y, x.tail(1));
     exponential_arguments(y, x);
     find_undefined(y, x, VectorXd::Constant(2, 0.5));
     const ExprVector slope = gradient(shared.value, x);
     gradient(slope[0], x);
+    pull_back(y, x, ExprVector::Ones(1));
+    tangent(y, x, ExprVector::Ones(2));
+    jacobian(y, x);
+    is_affine(y, x);
+    contained_groups(y, {x.head(1), x.tail(1)});
     substitute(y, x, ExprVector::Constant(2, x[0] + x[1]));
     const Function function("f", {{"x", x}}, y, {.differentiate = {"x"}});
     function.jacobian({VectorXd::Constant(2, 0.5)});
+    const SeriesFunction series({x}, y);
+    const VectorXd at = VectorXd::Constant(2, 0.5);
+    const double* const in[] = {at.data()};
+    double out = 0.0;
+    series.run(in, 0, &out);
   }
 }
 
