@@ -29,7 +29,7 @@ void add_new(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<Arguments>();
   CLI::App* command = app.add_subcommand("new", "Print a commented experiment to start from");
   command->add_option("KIND", arguments->kind, "the kind of its system")
-      ->type_name(kinds_with_an_example())
+      ->type_name_fn(kinds_with_an_example)
       ->required();
   command
       ->add_option("-o", arguments->file,
