@@ -1,5 +1,6 @@
 #include "document_mutation.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <set>
@@ -132,6 +133,12 @@ Json extreme(Generator& generator) {
   return numbers[below(numbers.size(), generator)];
 }
 
+Json another_number(double number, Generator& generator) {
+  if (below(2, generator) == 0) return extreme(generator);
+  return std::array<Json, 6>{
+      0, -number, 2 * number, 1e-9 * number, 1e9 * number, number + 1}[below(6, generator)];
+}
+
 Json changed(const Json& value, Generator& generator) {
   static const std::vector<Json> others = {nullptr,
                                            true,
@@ -176,13 +183,25 @@ Json changed(const Json& value, Generator& generator) {
         break;
     }
   }
-  if (value.is_number() && below(3, generator) != 0) {
-    const double number = value.get<double>();
-    if (below(2, generator) == 0) return extreme(generator);
-    return std::array<Json, 6>{
-        0, -number, 2 * number, 1e-9 * number, 1e9 * number, number + 1}[below(6, generator)];
-  }
+  if (value.is_number() && below(3, generator) != 0)
+    return another_number(value.get<double>(), generator);
   return others[below(others.size(), generator)];
+}
+
+// A number becomes another one, or what may be a formula is put into another one: the document keeps its
+// form, so that more is done with it than to refuse it.
+bool change_in_kind(Json& document, std::vector<Json::json_pointer> places, Generator& generator) {
+  std::erase_if(places, [&](const Json::json_pointer& place) {
+    const Json& value = document[place];
+    const std::vector<std::string>& words = vocabulary().words;
+    if (!value.is_string()) return !value.is_number();
+    return std::find(words.begin(), words.end(), value.get<std::string>()) != words.end();
+  });
+  if (places.empty()) return false;
+  Json& value = document[places[below(places.size(), generator)]];
+  value = value.is_number() ? another_number(value.get<double>(), generator)
+                            : Json(at_its_edge(value.get<std::string>(), generator));
+  return true;
 }
 
 }  // namespace
@@ -191,6 +210,7 @@ void mutate_document(Json& document, Generator& generator) {
   std::vector<Json::json_pointer> places;
   collect_places(document, Json::json_pointer(), places);
   if (places.empty()) return;
+  if (below(2, generator) == 0 && change_in_kind(document, places, generator)) return;
   const Json::json_pointer& place = places[below(places.size(), generator)];
   const Json value = document[place];
   Json& parent = document[place.parent_pointer()];
