@@ -25,9 +25,12 @@ double common_fraction(const Polynomial& polynomial, double lead) {
     std::int64_t divisor = 0;
     const bool are_integers = std::ranges::all_of(polynomial, [&](const auto& term) {
       const double number = term.second / lead * q, integer = std::round(number);
-      divisor = std::gcd(divisor, static_cast<std::int64_t>(std::min(std::fabs(integer), most)));
-      return std::fabs(integer) < most &&
-             std::fabs(number - integer) <= round_off * std::fabs(number);
+      // Both are false of NaN, which a quotient of numbers that overflowed is.
+      if (!(std::fabs(integer) < most) ||
+          !(std::fabs(number - integer) <= round_off * std::fabs(number)))
+        return false;
+      divisor = std::gcd(divisor, static_cast<std::int64_t>(integer));
+      return true;
     });
     if (are_integers && divisor > 0) return static_cast<double>(divisor) / q;
   }

@@ -1,6 +1,7 @@
 #include "courant/core/algebra/polynomial_content.hpp"
 
 #include <boost/test/unit_test.hpp>
+#include <limits>
 
 namespace courant {
 // Mistakes that these cases have to notice:
@@ -52,6 +53,14 @@ BOOST_FIXTURE_TEST_CASE(numbers_and_zero_have_a_content, Letters) {
   const PolynomialContent of_zero = content({}, factors);
   BOOST_TEST(of_zero.number == 1.0);
   BOOST_CHECK(of_zero.primitive_part.empty());
+}
+
+// The quotient of two of them is NaN, which is no integer.
+BOOST_FIXTURE_TEST_CASE(numbers_that_overflowed_have_no_common_fraction, Letters) {
+  constexpr double infinite = std::numeric_limits<double>::infinity();
+  const PolynomialContent of = content({{{{x, 1}}, infinite}, {{{y, 1}}, infinite}}, factors);
+  BOOST_TEST(of.number == infinite);
+  BOOST_CHECK(of.monomial.empty());
 }
 
 BOOST_AUTO_TEST_SUITE_END()
