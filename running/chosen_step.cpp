@@ -223,6 +223,11 @@ double difference(const TimeSpan& time, const Trial& coarse, const Trial& fine) 
 // What there is to say of a step beside itself.
 std::string remark_on(const ChosenStep& chosen, double tolerance) {
   const std::string step = number_text(chosen.step, 3);
+  if (!std::isfinite(chosen.estimate) && !chosen.ended_at)
+    return "is " + number_text(tolerance) +
+           ", but no step is tried in a run of more than a million rows: it has that of its "
+           "rows, " +
+           step;
   if (!std::isfinite(chosen.estimate))
     return "is " + number_text(tolerance) +
            ", but no step that was tried leads to a second row: the run has the least, " + step;
@@ -246,6 +251,7 @@ ChosenStep chosen_step(const Experiment& experiment, Backend backend,
                        const std::atomic<bool>* stop) {
   const TimeSpan& time = *experiment.time;
   const double tolerance = *time.tolerance;
+  if (static_cast<double>(time.steps) > kMostStepsTried) return {time.step, kNoEstimate};
   const Trials trials(experiment, backend, stop);
   long parts = 1;
   Trial coarse = trials.run(parts);

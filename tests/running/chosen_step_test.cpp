@@ -52,6 +52,19 @@ BOOST_AUTO_TEST_CASE(a_run_keeps_the_step_and_writes_at_the_interval) {
   BOOST_TEST(read_experiment_document(written).time->is_chosen);
 }
 
+// The states of a trial of so many rows would take more memory than there is.
+BOOST_AUTO_TEST_CASE(a_run_of_very_many_rows_has_the_step_of_its_rows) {
+  Json document = oscillator;
+  document["output"]["interval"] = 2e-12;
+  const std::shared_ptr<const Experiment> experiment =
+      std::make_shared<Experiment>(read_experiment_document(document));
+  const ChosenStep chosen = chosen_step(*experiment);
+  BOOST_TEST(chosen.step == 2e-12);
+  const auto made = with_chosen_step(*experiment, chosen);
+  BOOST_TEST_REQUIRE(!made->remarks.empty());
+  BOOST_TEST(made->remarks.back().what.find("more than a million rows") != std::string::npos);
+}
+
 // u goes to 10 until it is 7, and to 0 until it is 3, with the time 0.01: it is switched at 0.01 ln(10/3), and then every
 // 0.01 ln(7/3). Runs without the switch would be ten times as exact.
 BOOST_AUTO_TEST_CASE(what_events_set_is_in_the_trials) {
