@@ -40,14 +40,16 @@ std::size_t below(std::size_t bound) {
   return std::uniform_int_distribution<std::size_t>(0, bound - 1)(generator());
 }
 
-std::string input;  // of the execution that goes on
+std::string input;                        // of the execution that goes on
+std::atomic<std::size_t> executions = 0;  // that have begun
 
 void write_input() { std::ofstream("crash-input", std::ios::binary) << input; }
 
 // For handlers of signals, in which a program that ends anyway may do this much.
 [[noreturn]] void leave_input(const std::string& reason) {
   write_input();
-  std::cerr << "Finding: " << reason << " Its input is in crash-input." << std::endl;
+  std::cerr << "Finding: " << reason << " Its input, that of execution " << executions
+            << " of this seed, is in crash-input." << std::endl;
   _exit(1);
 }
 
@@ -103,6 +105,7 @@ class Watch {
 };
 
 void execute() {
+  ++executions;
   Watch::next();
   LLVMFuzzerTestOneInput(reinterpret_cast<const std::uint8_t*>(input.data()), input.size());
 }
