@@ -10,6 +10,8 @@ namespace courant {
 namespace {
 
 constexpr long kUsualSegments = 8;
+// Some minutes of an iteration, within which nobody is asked whether to stop.
+constexpr long kMostSteps = 10'000'000;
 // Of the size of a step, for differences: their error is its fourth power, round-off over it.
 constexpr double kPartOfStep = 1e-3;
 // A step that leaves M_f by more than this of the size of its point is that of a method which does not keep to it.
@@ -78,6 +80,11 @@ Shooting::Shooting(const BoundaryProblem& problem)
     throw std::invalid_argument("Shooting::Shooting: steps is " + std::to_string(problem_.steps) +
                                 ", segments is " + std::to_string(problem_.segments) +
                                 "; expected at least one step, forward in time.");
+  if (problem_.steps > kMostSteps)
+    throw std::invalid_argument("Shooting::Shooting: steps is " + std::to_string(problem_.steps) +
+                                "; expected at most " + std::to_string(kMostSteps) +
+                                " where boundary values are sought, all of which each iteration "
+                                "makes.");
   problem_.guess = points_.nearest(problem_.guess);
   // A method that leaves M_f would be brought back at nodes, and the run from the start would be another motion.
   const State after = problem_.method->advance(problem_.guess, problem_.h);
