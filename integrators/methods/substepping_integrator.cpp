@@ -44,13 +44,21 @@ class SubsteppingIntegrator::Trajectory final : public Stepper {
     is_halved_ = false;
     after = before;
     const std::vector<double> corners = corners_within(options_.corners, before.t, h);
-    if (corners.empty()) return make_piece(*whole_, after, h, end, options_.halvings);
+    if (corners.empty() && options_.parts == 1)
+      return make_piece(*whole_, after, h, end, options_.halvings);
     double begin = before.t;
     for (const double corner : corners) {
-      make_piece(*piece_, after, corner - begin, corner, options_.halvings);
+      make_parts(after, corner - begin, corner);
       begin = corner;
     }
-    make_piece(*piece_, after, before.t + h - begin, end, options_.halvings);
+    make_parts(after, before.t + h - begin, end);
+  }
+
+  // The piece of h to the time `end`.
+  void make_parts(State& state, double h, double end) {
+    const double part = h / options_.parts;
+    for (int left = options_.parts - 1; left >= 0; --left)
+      make_piece(*piece_, state, part, end - left * part, options_.halvings);
   }
 
   // The step of h to the time `end`, in halves if it is refused and may be halved so many times.
@@ -119,12 +127,21 @@ SubsteppingIntegrator::SubsteppingIntegrator(const std::shared_ptr<const Integra
     throw std::invalid_argument("SubsteppingIntegrator::SubsteppingIntegrator: halvings is " +
                                 std::to_string(options_.halvings) + "; expected 0 to " +
                                 std::to_string(kMostHalvings) + ".");
+  if (options_.parts < 1)
+    throw std::invalid_argument("SubsteppingIntegrator::SubsteppingIntegrator: parts is " +
+                                std::to_string(options_.parts) + "; expected at least 1.");
   for (const Corner& corner : options_.corners)
     if (!std::isfinite(corner.first) || !std::isfinite(corner.period) || corner.period < 0.0)
       throw std::invalid_argument(
           "SubsteppingIntegrator::SubsteppingIntegrator: a corner has the time " +
           number_text(corner.first) + " and the period " + number_text(corner.period) +
           "; expected finite numbers, the period 0 or greater.");
+}
+
+std::shared_ptr<const SubsteppingIntegrator> SubsteppingIntegrator::in_parts(int parts) const {
+  Options options = options_;
+  options.parts *= parts;
+  return std::make_shared<const SubsteppingIntegrator>(wrapped(), std::move(options));
 }
 
 std::vector<double> SubsteppingIntegrator::corners_within(const std::vector<Corner>& corners,

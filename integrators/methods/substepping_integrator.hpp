@@ -20,6 +20,7 @@ struct Corner {
 //     the bend has an error of order 1.
 //   * In halves: a step, or a piece of one, that Φ refuses (SolveError) is made as two of half the size, and each
 //     of those that is refused again, up to the given number of times.
+//   * In parts: a step, or a piece between corners, is made as so many of the same size.
 //
 // A step depends on the state and on h alone, as those of every method. Order, symmetry, form and energy are
 // those of Φ; symmetry where no step is halved, since the way back meets the same corners, but may not be
@@ -31,13 +32,17 @@ class SubsteppingIntegrator final : public IntegratorAdaptor {
   struct Options {
     std::vector<Corner> corners = {};
     int halvings = 0;
+    int parts = 1;
   };
   // Corners nearer to an end of the step than this part of it are taken for the end.
   static constexpr double kSmallestPart = 1e-6;
 
-  // Throws std::invalid_argument unless times and periods are finite, periods not negative, and
-  // there are 0 to 60 halvings.
+  // Throws std::invalid_argument unless times and periods are finite, periods not negative, there are
+  // 0 to 60 halvings and at least one part.
   SubsteppingIntegrator(const std::shared_ptr<const Integrator>& method, Options options);
+
+  // The same with so many times as many parts.
+  std::shared_ptr<const SubsteppingIntegrator> in_parts(int parts) const;
 
   // The corners within the step from t to t + h, in the order of the way. Throws SolveError for more than
   // 1e4 of one period.

@@ -148,6 +148,18 @@ BOOST_AUTO_TEST_CASE(halvings_end) {
   BOOST_TEST(stepper->statistics().divisions == 0);
 }
 
+BOOST_AUTO_TEST_CASE(pieces_between_corners_are_made_in_parts) {
+  const Pointer plain = bent();
+  const auto divided = SubsteppingIntegrator(plain, {.corners = {{1.0 / 3.0, 0.0}}}).in_parts(2);
+  State by_hand = at(0.7);
+  for (const double h : {1.0 / 6.0, 1.0 / 6.0, 1.0 / 12.0, 1.0 / 12.0})
+    by_hand = plain->advance(by_hand, h);
+  const State found = divided->advance(at(0.7), 0.5);
+  BOOST_TEST(std::abs(found.x[0] - by_hand.x[0]) < 1e-14);
+  BOOST_TEST(found.t == 0.5);
+  BOOST_CHECK_THROW(divided->in_parts(0), std::invalid_argument);
+}
+
 // The tangent map is the product of those of the pieces: of 1/x(t) = 1/x - t up to the error of the method, and of
 // differences of its steps.
 BOOST_AUTO_TEST_CASE(differential_of_substepping) {
