@@ -87,7 +87,10 @@ int run_experiment(const Console& console, const RunArguments& arguments,
       print_wrapped(console,
                     "The step " + shown(chosen.step) +
                         " was chosen: with a half of it coordinates differ by " +
-                        shown(chosen.estimate, 2) + " of their ways.",
+                        shown(chosen.estimate, 2) + " of their ways" +
+                        (chosen.observed > 0.0
+                             ? ", and what is observed by " + shown(chosen.observed, 2) + " of its."
+                             : "."),
                     "  ");
     const auto whole = with_chosen_step(experiment, chosen);
     for (std::size_t i = experiment.remarks.size(); i < whole->remarks.size(); ++i)

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -37,6 +38,12 @@ struct Model {
   // Where the search for coordinates that are not given begins, by what else is given of the start, by name; 0 if
   // empty.
   std::function<VectorXd(const std::vector<std::pair<std::string, double>>& given)> reference;
+
+  // Of quantities that are alike, and are compared next to the greatest of them, a common word by name: voltages and
+  // potentials of a network, its currents.
+  std::map<std::string, std::string, std::less<>> kinds = {};
+  // Of these, what tells of each coordinate of a network in the units of its kind, ∂H/∂x; of others empty.
+  std::vector<std::string> efforts = {};
 
   // Whether the point is (state, costate) of a problem of optimal control, with Pontryagin's function as energy.
   bool is_control_problem = false;

@@ -32,10 +32,15 @@ class NetworkBranches::Naming {
       const NetworkBranch& branch = to_.assembly.branches()[k];
       words_.currents[name(branch.current_name, element.pointer)] = static_cast<Index>(k);
       words_.voltages[name(branch.voltage_name, element.pointer)] = static_cast<Index>(k);
+      const elements::Domain& domain = *element.element.branches[k - first].domain;
+      to_.kinds[branch.current_name] = domain.name + " through";
+      to_.kinds[branch.voltage_name] = across(domain);
       if (branch.role == Role::port)
         for (const char* letter : {"u_", "y_"}) name(letter + branch.name, element.pointer);
-      if (!branch.state_name.empty())
-        words_.vocabulary.coordinates.append({name(branch.state_name, element.pointer), {}});
+      if (branch.state_name.empty()) continue;
+      words_.vocabulary.coordinates.append({name(branch.state_name, element.pointer), {}});
+      to_.efforts.push_back(branch.kind == Kind::charge ? branch.voltage_name
+                                                        : branch.current_name);
     }
   }
 
@@ -46,9 +51,11 @@ class NetworkBranches::Naming {
     const auto kinds = node_domains(nodes_, elements);
     std::map<std::string, Index> potentials;
     for (std::size_t node = 1; node < nodes_.names.size(); ++node)
-      if (kinds[node])
-        potentials[name(kinds[node]->node + nodes_.names[node], nodes_.pointers[node])] =
-            static_cast<Index>(node);
+      if (kinds[node]) {
+        const std::string potential = kinds[node]->node + nodes_.names[node];
+        potentials[name(potential, nodes_.pointers[node])] = static_cast<Index>(node);
+        to_.kinds[potential] = across(*kinds[node]);
+      }
     for (const NetworkElement& element : elements)
       for (const WrittenFormula& formula : element.formulas)
         for (const std::string& used : used_in(formula)) {
@@ -67,6 +74,8 @@ class NetworkBranches::Naming {
   }
 
  private:
+  static std::string across(const elements::Domain& domain) { return domain.name + " across"; }
+
   std::string name(const std::string& name, const std::string& pointer) {
     if (taken_.find(name)) {
       findings_.problem(pointer, "needs the name \"" + name +

@@ -1,6 +1,7 @@
 // The branches of a network that elements stand for.
 #pragma once
 
+#include <map>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,10 @@ class NetworkBranches {
                   NetworkWords& words, Findings& findings);
 
   elements::NetworkAssembly assembly;
-  NameList outputs;             // of ports
+  NameList outputs;  // of ports
+  // Of currents, voltages and potentials, and the names of ∂H/∂x, as a Model has them.
+  std::map<std::string, std::string, std::less<>> kinds;
+  std::vector<std::string> efforts;
   std::size_t of_elements = 0;  // branches before those that measure potentials
   bool right = true;            // whether there were no problems
 

@@ -155,6 +155,8 @@ std::optional<Model> read_elements_and_nodes(ObjectReader& system) {
   model.description = "network of " + std::to_string(elements->size()) + " elements between " +
                       std::to_string(nodes->names.size()) + " nodes";
   model.system = network;
+  model.kinds = std::move(branches.kinds);
+  model.efforts = std::move(branches.efforts);
   model.starts_at_zero = true;
   return model;
 }

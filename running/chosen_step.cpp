@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <map>
+#include <set>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -22,202 +24,219 @@ constexpr double kMostStepsTried = 1e6;
 constexpr double kFalls = 0.8;
 constexpr int kMostInVain = 2;
 constexpr double kNoEstimate = std::numeric_limits<double>::infinity();
-// Ways of coordinates below this part of their greatest value are round-off.
+// Ways of quantities below this part of their greatest value are round-off.
 constexpr double kLeastWayCompared = 1e-9;
+constexpr double kMissing = std::numeric_limits<double>::quiet_NaN();
 
-// What a trial leaves: the coordinates at the ends of the longest steps, as columns, and those at which an event stopped it;
-// and when events stopped it or set something, by their names.
-struct Trial {
-  MatrixXd x = {};
-  std::map<std::string, std::vector<double>> jumps = {};
-  VectorXd stopped_at = {};  // empty where no event did
-  double last_time = 0.0;
-  // From where a step could not be made to the end of that step.
-  std::optional<std::pair<double, double>> failed_in = std::nullopt;
+// The quantities of a trial that are compared, each set next to the greatest way of one of them: t, which tells where
+// an event ended the run, and what tells of the coordinates, the first so many sets; behind them what is observed.
+struct Compared {
+  std::vector<std::vector<std::string>> kinds = {{"t"}};
+  std::size_t of_states = 1;
+
+  void add(const Model& model, const std::vector<std::string>& names) {
+    std::map<std::string, std::vector<std::string>> found;
+    for (const std::string& name : names) {
+      const auto kind = model.kinds.find(name);
+      found[kind == model.kinds.end() ? name : kind->second].push_back(name);
+    }
+    for (auto& [kind, alike] : found) kinds.push_back(std::move(alike));
+  }
 };
 
-// Whether steps by themselves do not know how the run goes on behind it.
-bool ends_a_way(const Event& event) { return event.sets() || event.stops; }
+// Observables that are a quantity of the network, such as a potential: of formulas of several nothing says what they
+// are small next to.
+std::vector<std::string> observed_quantities(const Experiment& experiment) {
+  std::vector<std::string> names;
+  for (const auto& [name, formula, at_stage, uses_energies] : experiment.observe)
+    if (!at_stage && experiment.model.kinds.contains(formula.text)) names.push_back(formula.text);
+  return names;
+}
+
+Compared compared(const Experiment& experiment) {
+  const Model& model = experiment.model;
+  Compared result;
+  result.add(model, model.efforts.empty() ? model.system->names().coordinates : model.efforts);
+  result.of_states = result.kinds.size();
+  result.add(model, observed_quantities(experiment));
+  return result;
+}
+
+// The experiment of the trials: what is compared is observed, and nothing else that may end a run.
+Experiment to_try(const Experiment& experiment) {
+  Experiment trial = experiment;
+  std::vector<std::string> names = observed_quantities(experiment);
+  names.insert(names.end(), experiment.model.efforts.begin(), experiment.model.efforts.end());
+  trial.observe.clear();
+  for (const std::string& name : std::set<std::string>(names.begin(), names.end()))
+    trial.observe.push_back({.name = name, .formula = {name, "/observe"}});
+  trial.writes_energies = trial.writes_balance = false;
+  trial.defects.clear();
+  trial.sensitivities.reset();
+  trial.symmetries.clear();
+  trial.expect = {};
+  trial.examine = 0;
+  // Boundary values are sought after a step is chosen, of one smooth map.
+  if (trial.boundary) trial.events.clear();
+  trial.boundary.reset();
+  trial.output = {};
+  trial.time->is_chosen = true;
+  return trial;
+}
+
+// What a trial leaves: t and what is compared at the ends of the longest steps, a column for each of these, and behind
+// them where the run ended by itself or by an event; what it has not is missing.
+struct Trial {
+  MatrixXd rows = {};
+  double last_time = 0.0;
+  bool has_failed = false;
+};
 
 // Keeps of a run what a trial leaves, of every so many steps.
 class TrialKeeper final : public RunKeeper {
  public:
-  TrialKeeper(long parts, const TimeSpan& time) : parts_(parts), time_(time) {}
-
-  void open(const RunOpening&) override {}
-  void append(double, const std::optional<double>&, const Eigen::Ref<const VectorXd>&) override {}
-  void append_event(const std::string& name, double t, const Eigen::Ref<const VectorXd>&) override {
-    events_[name].push_back(t);
+  TrialKeeper(const Compared& compared, const TimeSpan& longest, long parts)
+      : compared_(compared), longest_(longest), parts_(parts) {
+    trial_.last_time = longest.start;
   }
+
+  void open(const RunOpening& opening) override {
+    const std::vector<std::string>& names = opening.event_columns;
+    for (const std::vector<std::string>& kind : compared_.kinds)
+      for (const std::string& name : kind)
+        if (name != "t") places_.push_back(std::ranges::find(names, name) - names.begin());
+    trial_.rows = MatrixXd::Constant(1 + std::ssize(places_), longest_.steps + 2, kMissing);
+  }
+  void append(double, const std::optional<double>&, const Eigen::Ref<const VectorXd>&) override {}
+  void append_event(const std::string&, double, const Eigen::Ref<const VectorXd>&) override {}
   void see(const RunMoment& moment) override {
     constexpr double round_off = 1e-9;
-    const double end = time_.time(moment.k / parts_);
-    if (!moment.step.after.x.allFinite()) return;
-    last_ = moment.step.after.x;
-    last_t_ = moment.t;
+    trial_.last_time = moment.t;
+    const Index row = moment.k / parts_;
+    const double beside = std::fabs(moment.t - longest_.time(row));
     // An event may have stopped the run within the step.
-    if (moment.k % parts_ == 0 && std::fabs(moment.t - end) <= round_off * std::fabs(time_.step))
-      states_.push_back(last_);
+    const bool is_whole = moment.k % parts_ == 0 && beside <= round_off * std::fabs(longest_.step);
+    if (is_whole) trial_.rows.col(row) << moment.t, moment.row(places_);
+    if (moment.k == moment.steps) trial_.rows.rightCols(1) << moment.t, moment.row(places_);
   }
   void close() override {}
   void tell(const RunSummary&) override {}
 
-  Trial trial(const std::vector<Event>& events) const {
-    Trial trial{.x = MatrixXd(last_.size(), std::ssize(states_)), .last_time = last_t_};
-    for (Index k = 0; k < trial.x.cols(); ++k)
-      trial.x.col(k) = states_[static_cast<std::size_t>(k)];
-    for (const Event& event : events) {
-      if (!ends_a_way(event)) continue;
-      const auto found = events_.find(event.name);
-      const std::vector<double> times =
-          found == events_.end() ? std::vector<double>() : found->second;
-      if (event.stops && !times.empty()) trial.stopped_at = last_;
-      trial.jumps[event.name] = times;
-    }
-    return trial;
+  Trial trial(const RunOutcome& outcome) && {
+    trial_.has_failed = outcome.status == RunStatus::failed;
+    return std::move(trial_);
   }
 
  private:
+  const Compared& compared_;
+  const TimeSpan& longest_;
   long parts_;
-  const TimeSpan& time_;
-  std::vector<VectorXd> states_;
-  VectorXd last_;
-  double last_t_ = time_.start;
-  std::map<std::string, std::vector<double>> events_;
+  std::vector<Index> places_;
+  Trial trial_;
+};
+
+// Of the rows of two trials: the least ε for which no more than the part ε of the rows differs by more than ε, the metric
+// of Ky Fan; and the mean, which falls as differences fall. Where a quantity jumps rows beside the jump differ by as much
+// as it, however short steps are, but fewer of them.
+struct RowDifference {
+  double estimate = kNoEstimate, mean = kNoEstimate;
+
+  static RowDifference of(std::vector<double> rows) {
+    std::ranges::sort(rows, std::greater<>());
+    const double count = static_cast<double>(rows.size());
+    RowDifference found{1.0, 0.0};
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      found.estimate = std::min(found.estimate, std::max(rows[k], static_cast<double>(k) / count));
+      found.mean += std::min(rows[k], 1.0) / count;
+    }
+    return found;
+  }
 };
 
 // Runs with steps that are tried.
 class Trials {
  public:
   Trials(const Experiment& experiment, Backend backend, const std::atomic<bool>* stop)
-      : experiment_(experiment),
-        backend_(backend),
-        stop_(stop),
-        // Boundary values are sought after a step is chosen, of one smooth map.
-        jumps_(!experiment.boundary && std::ranges::any_of(experiment.events, ends_a_way)) {
-    if (!jumps_) start_ = consistent_start(experiment);
+      : experiment_(to_try(experiment)),
+        compared_(compared(experiment)),
+        start_(consistent_start(experiment)) {
+    options_.backend = backend;
+    options_.stop = stop;
+    options_.explains_start = false;
   }
 
-  Trial run(long parts) const {
-    const TimeSpan& time = *experiment_.time;
-    const double h = time.step / static_cast<double>(parts);
-    Trial trial = jumps_ ? with_events(h, parts) : steps_alone(h, parts);
-    if (trial.x.cols() <= time.steps && trial.stopped_at.size() == 0)
-      trial.failed_in = {trial.last_time, trial.last_time + h};
-    return trial;
+  // The steps of a longest one in so many parts.
+  Trial run(long parts) const { return carried_out(experiment_, parts); }
+
+  // Where corners end steps those of half the size may be made of the same pieces: there each piece has two halves.
+  bool has_corners() const {
+    const auto& division = experiment_.time->division;
+    return division && !division->corners.empty();
   }
+  Trial run_in_halves(long parts) const {
+    if (!has_corners()) return run(2 * parts);
+    Experiment halved = experiment_;
+    halved.method->prepare = [prepare = halved.method->prepare](const MethodSetting& at) {
+      PreparedMethod method = prepare(at);
+      method.integrator =
+          dynamic_cast<const SubsteppingIntegrator&>(*method.integrator).in_parts(2);
+      return method;
+    };
+    return carried_out(halved, parts);
+  }
+
+  // Of the coordinates, and of what is observed.
+  struct Differences {
+    RowDifference states, observed;
+  };
+  Differences differences(const Trial& coarse, const Trial& fine) const;
 
  private:
-  Trial with_events(double h, long parts) const {
-    const TimeSpan& time = *experiment_.time;
-    const auto whole = with_chosen_step(experiment_, {.step = h});
-    TrialKeeper keeper(parts, time);
-    RunOptions options;
-    options.backend = backend_;
-    options.stop = stop_;
-    options.explains_start = false;
-    const RunOutcome outcome = carry_out(*whole, keeper, options);
+  Trial carried_out(Experiment experiment, long parts) const {
+    experiment.time->step /= static_cast<double>(parts);
+    experiment.time->steps *= parts;
+    TrialKeeper keeper(compared_, *experiment_.time, parts);
+    const RunOutcome outcome = carry_out(experiment, keeper, options_, start_);
     if (outcome.status == RunStatus::interrupted) throw std::runtime_error("interrupted");
-    return keeper.trial(experiment_.events);
+    return std::move(keeper).trial(outcome);
   }
 
-  Trial steps_alone(double h, long parts) const {
-    const TimeSpan& time = *experiment_.time;
-    State state = start_.point;
-    MatrixXd x(state.x.size(), time.steps + 1);
-    Index reached = 0;  // columns
-    try {
-      const PreparedMethod method =
-          experiment_.method->prepare({.system = experiment_.model.system,
-                                       .ladder = start_,
-                                       .initial = start_.point,
-                                       .step = h,
-                                       .backend = backend_,
-                                       .vocabulary = &experiment_.model.vocabulary});
-      const auto stepper = method.integrator->stepper();
-      state = method.initial;
-      x.col(reached++) = state.x;
-      stepper->prepare(state, h);
-      for (long k = 0; k < time.steps; ++k) {
-        for (long i = 1; i <= parts; ++i)
-          stepper->step(state, h, time.time(k) + static_cast<double>(i) * h);
-        if (stop_ && *stop_) throw std::runtime_error("interrupted");
-        if (!state.x.allFinite()) break;
-        x.col(reached++) = state.x;
-      }
-    } catch (const SolveError&) {
-    } catch (const std::domain_error&) {
-    }
-    return {.x = x.leftCols(reached), .last_time = state.t};
-  }
-
-  const Experiment& experiment_;
-  Backend backend_;
-  const std::atomic<bool>* stop_;
-  bool jumps_;
-  ConstraintLadder start_;  // of steps alone: a run finds its own
+  Experiment experiment_;
+  Compared compared_;
+  ConsistentStart start_;
+  RunOptions options_;
 };
 
-// The times from an occurrence of an event in one trial to the same one in the other, or to the end where that has none:
-// one has jumped then, and the other has not. Likewise those between the ends of trials that failed.
-std::vector<std::pair<double, double>> times_between_jumps(const TimeSpan& time, const Trial& a,
-                                                           const Trial& b) {
-  std::vector<std::pair<double, double>> result;
-  for (const auto& [name, of_a] : a.jumps) {
-    const std::vector<double>& of_b = b.jumps.at(name);
-    for (std::size_t i = 0; i < std::max(of_a.size(), of_b.size()); ++i)
-      result.push_back(std::minmax(i < of_a.size() ? of_a[i] : time.end(),
-                                   i < of_b.size() ? of_b[i] : time.end()));
+// A row that only one trial has differs.
+Trials::Differences Trials::differences(const Trial& coarse, const Trial& fine) const {
+  const auto is_there = [](const Trial& trial, Index k) { return trial.rows.col(k).allFinite(); };
+  std::vector<Index> common;
+  std::vector<double> alone;
+  for (Index k = 0; k < std::min(coarse.rows.cols(), fine.rows.cols()); ++k) {
+    if (is_there(coarse, k) && is_there(fine, k))
+      common.push_back(k);
+    else if (is_there(coarse, k) || is_there(fine, k))
+      alone.push_back(kNoEstimate);
   }
-  const std::pair<double, double> whole{time.end(), time.end()};
-  const auto [a_from, a_to] = a.failed_in.value_or(whole);
-  const auto [b_from, b_to] = b.failed_in.value_or(whole);
-  if (a_to < b_from) result.emplace_back(a_to, b_from);
-  if (b_to < a_from) result.emplace_back(b_to, a_from);
-  return result;
-}
-
-// States of two trials at the same times, as columns: those at which both have jumped as often, and where both stopped.
-std::pair<MatrixXd, MatrixXd> comparable(const TimeSpan& time, const Trial& a, const Trial& b,
-                                         const std::vector<std::pair<double, double>>& between) {
-  constexpr double beside = 1e-9;
-  const auto is_between = [&](Index k) {
-    const double t = time.time(k), near = beside * std::fabs(time.step);
-    return std::ranges::any_of(between, [&](const auto& times) {
-      return t >= times.first - near && t <= times.second + near;
-    });
+  if (common.size() < 2) return {};
+  Index first = 0;
+  const auto difference = [&](std::size_t from, std::size_t to) {
+    VectorXd greatest = VectorXd::Zero(std::ssize(common));
+    for (std::size_t kind = from; kind < to; ++kind) {
+      const auto places = Eigen::seqN(first, std::ssize(compared_.kinds[kind]));
+      first += places.size();
+      const MatrixXd rows = fine.rows(places, common);
+      const double way = (rows.rowwise().maxCoeff() - rows.rowwise().minCoeff()).maxCoeff();
+      if (way <= kLeastWayCompared * rows.cwiseAbs().maxCoeff()) continue;
+      const MatrixXd apart = (coarse.rows(places, common) - rows).cwiseAbs();
+      greatest = greatest.cwiseMax(apart.colwise().maxCoeff().transpose() / way);
+    }
+    std::vector<double> all = alone;
+    all.insert(all.end(), greatest.begin(), greatest.end());
+    return RowDifference::of(std::move(all));
   };
-  std::vector<Index> columns;
-  for (Index k = 0; k < std::min(a.x.cols(), b.x.cols()); ++k)
-    if (!is_between(k)) columns.push_back(k);
-  std::pair<MatrixXd, MatrixXd> result{a.x(Eigen::all, columns), b.x(Eigen::all, columns)};
-  if (a.stopped_at.size() == 0 || b.stopped_at.size() == 0) return result;
-  for (auto& [states, end] : {std::pair<MatrixXd&, const VectorXd&>{result.first, a.stopped_at},
-                              {result.second, b.stopped_at}}) {
-    states.conservativeResize(Eigen::NoChange, states.cols() + 1);
-    states.rightCols(1) = end;
-  }
-  return result;
-}
-
-// The greatest of coordinates where they can be compared, next to their ways, and the part of the time in which they
-// cannot.
-double difference(const TimeSpan& time, const Trial& coarse, const Trial& fine) {
-  const auto has_no_way = [](const Trial& trial) {
-    return trial.x.cols() < 2 && trial.stopped_at.size() == 0;
-  };
-  if (has_no_way(coarse) || has_no_way(fine)) return kNoEstimate;
-  double greatest = 0.0;
-  const auto between = times_between_jumps(time, coarse, fine);
-  for (const auto& [from, to] : between) greatest += (to - from) / (time.end() - time.start);
-  const auto [of_coarse, of_fine] = comparable(time, coarse, fine, between);
-  for (Index i = 0; i < of_fine.rows() && of_fine.cols() > 0; ++i) {
-    const auto row = of_fine.row(i);
-    const double way = row.maxCoeff() - row.minCoeff();
-    if (way <= kLeastWayCompared * row.cwiseAbs().maxCoeff()) continue;
-    greatest = std::max(greatest, (of_coarse.row(i) - row).cwiseAbs().maxCoeff() / way);
-  }
-  return greatest;
+  const RowDifference of_states = difference(0, compared_.of_states);
+  return {of_states, difference(compared_.of_states, compared_.kinds.size())};
 }
 
 // What there is to say of a step beside itself.
@@ -256,28 +275,37 @@ ChosenStep chosen_step(const Experiment& experiment, Backend backend,
   long parts = 1;
   Trial coarse = trials.run(parts);
   ChosenStep best{time.step, kNoEstimate};
-  int in_vain = 0;  // halvings that left the estimate as it was
-  double before = kNoEstimate;
+  int in_vain = 0;                                   // halvings that left the estimate as it was
+  double before = kNoEstimate, least = kNoEstimate;  // means
   while (in_vain < kMostInVain &&
          static_cast<double>(parts) * static_cast<double>(time.steps) <= kMostStepsTried) {
-    Trial fine = trials.run(2 * parts);
-    const double estimate = difference(time, coarse, fine);
-    if (estimate < best.estimate)
-      best = {time.step / static_cast<double>(parts), estimate,
-              fine.failed_in ? std::optional(fine.failed_in->first) : std::nullopt};
-    if (estimate <= tolerance) return best;
-    if (std::isfinite(estimate) && estimate > kFalls * before) ++in_vain;
-    before = estimate;
+    Trial fine = trials.run_in_halves(parts);
+    const auto [states, observed] = trials.differences(coarse, fine);
+    const bool had_states = best.estimate <= tolerance, has_states = states.estimate <= tolerance;
+    // What is observed may be round-off where the coordinates are not: the node between two diodes that block.
+    if (had_states ? has_states && observed.mean < kFalls * least
+                   : states.estimate < best.estimate) {
+      best = {time.step / static_cast<double>(parts), states.estimate, observed.estimate,
+              fine.has_failed ? std::optional(fine.last_time) : std::nullopt};
+      least = observed.mean;
+    }
+    if (has_states && observed.estimate <= tolerance) return best;
+    if (!had_states && has_states) before = kNoEstimate;
+    const auto [estimate, mean] = has_states ? observed : states;
+    if (std::isfinite(mean) && mean > kFalls * before) ++in_vain;
+    before = mean;
     // An error of order 2 has a quarter with each half.
     const double halves =
         std::isfinite(estimate) ? std::floor(0.5 * std::log2(estimate / tolerance)) : 1.0;
     const int further = static_cast<int>(std::clamp(halves, 1.0, 4.0));
     parts *= 1L << further;
-    coarse = further == 1 ? std::move(fine) : trials.run(parts);
+    coarse = further == 1 && !trials.has_corners() ? std::move(fine) : trials.run(parts);
   }
   // What stands in the way of the first step, the run with the least of them says.
   if (!std::isfinite(best.estimate))
-    best = {time.step / static_cast<double>(parts), kNoEstimate, time.start};
+    best = {.step = time.step / static_cast<double>(parts),
+            .estimate = kNoEstimate,
+            .ended_at = time.start};
   return best;
 }
 

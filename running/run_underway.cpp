@@ -50,12 +50,13 @@ SolverStatistics operator+(const SolverStatistics& a, const SolverStatistics& b)
 
 class RunUnderway {
  public:
-  RunUnderway(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options)
+  RunUnderway(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options,
+              const ConsistentStart& start)
       : experiment_(experiment),
         keeper_(keeper),
         options_(options),
         backend_(worthwhile(options.backend, experiment, options.alike)),
-        ladder_(start_of_run(experiment)),
+        ladder_(start),
         ladder_report_(options.explains_start
                            ? report_of_start(experiment, ladder_)
                            : discrete_ladder_report(ladder_, *experiment.model.system)),
@@ -570,7 +571,13 @@ bool RunOutcome::as_expected() const {
 
 RunOutcome carry_out(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options) {
   keeper.check(experiment);
-  return RunUnderway(experiment, keeper, options)();
+  return RunUnderway(experiment, keeper, options, start_of_run(experiment))();
+}
+
+RunOutcome carry_out(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options,
+                     const ConsistentStart& start) {
+  keeper.check(experiment);
+  return RunUnderway(experiment, keeper, options, start)();
 }
 
 }  // namespace courant

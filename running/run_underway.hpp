@@ -12,6 +12,7 @@
 #include "courant/core/numbers/parallel.hpp"
 #include "courant/core/solve/equation_engine.hpp"
 #include "courant/reading/experiment.hpp"
+#include "courant/running/impulsive_start.hpp"
 #include "courant/running/run_folder.hpp"
 #include "courant/running/run_keeper.hpp"
 #include "courant/running/run_summary.hpp"
@@ -59,5 +60,8 @@ struct RunOutcome {
 
 // Carries out a run whose step, and whose boundary values if it has any, are known. All else is as run() says.
 RunOutcome carry_out(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options);
+// The same from a start of it that is known: start_of_run(), or one that is as good.
+RunOutcome carry_out(const Experiment& experiment, RunKeeper& keeper, const RunOptions& options,
+                     const ConsistentStart& start);
 
 }  // namespace courant

@@ -2,6 +2,7 @@
 
 #include <boost/test/unit_test.hpp>
 #include <cmath>
+#include <vector>
 
 #include "courant/running/run_files.hpp"
 #include "run_in.hpp"
@@ -159,6 +160,83 @@ BOOST_AUTO_TEST_CASE(what_ends_the_first_step_the_run_says) {
   const RunOutcome outcome = run_in(folder, document);
   BOOST_TEST((outcome.status == RunStatus::failed));
   BOOST_TEST(outcome.message.find("/time/tolerance") == std::string::npos, outcome.message);
+}
+
+// x' is 0 up to t = 0.02, and rises behind it. The steps of 0.1 and of 0.05 have the same piece up to the corner, and the
+// same error of 0.01.
+BOOST_AUTO_TEST_CASE(pieces_between_corners_have_halves_too) {
+  const Json document = Json::parse(R"json({
+    "system": { "type": "implicit", "coordinates": ["x"], "equations": ["x' - max(0, 50*(t - 0.02))"] },
+    "initial": { "x": 0 },
+    "method": "discretize-first",
+    "time": { "tolerance": 1e-4, "end": 1, "corners": [0.05] },
+    "output": { "interval": 0.1 }
+  })json");
+  const TemporaryFolder folder;
+  const RunOutcome outcome = run_in(folder, document);
+  BOOST_TEST(std::abs(final_value(outcome, "x") - 25.0 * 0.98 * 0.98) < 5e-3);
+}
+
+// So little comes to the far end of a ladder of RC cells that its charges there are round-off next to that of the first.
+BOOST_AUTO_TEST_CASE(charges_are_compared_in_volts) {
+  const auto ladder = [](int cells) {
+    Json document = Json::parse(R"json({
+      "system": { "type": "network", "nodes": ["0", {"repeat": {"i": [0, "n"]}, "name": "n{i}"}],
+                  "parameters": { "n": 1 },
+                  "elements": [
+        { "type": "voltage-source", "name": "V", "from": "n0", "to": "0", "value": 1 },
+        { "type": "resistor", "repeat": {"i": [1, "n"]}, "name": "R{i}", "from": "n{i-1}", "to": "n{i}", "value": 1 },
+        { "type": "capacitor", "repeat": {"i": [1, "n"]}, "name": "C{i}", "from": "n{i}", "to": "0", "value": 1 } ] },
+      "initial": {},
+      "method": "discretize-first",
+      "time": { "tolerance": 1e-4, "end": 2 },
+      "output": { "interval": 0.1 }
+    })json");
+    document["system"]["parameters"]["n"] = cells;
+    return chosen_step(read_experiment_document(document));
+  };
+  const ChosenStep of_three = ladder(3), of_thirty = ladder(30);
+  BOOST_TEST(of_three.estimate <= 1e-4);
+  BOOST_TEST(of_thirty.step == of_three.step);
+}
+
+// The coil of a boost converter runs empty in each period: the node between the switch and the diode is held by neither
+// then, and the step in which the diode blocks leaves a potential there that is volts away.
+BOOST_AUTO_TEST_CASE(potentials_that_are_observed_are_compared) {
+  Json document = Json::parse(R"json({
+    "system": { "type": "network", "nodes": ["0", "in", "sw", "out"], "elements": [
+      { "type": "voltage-source", "name": "V1", "from": "in", "to": "0", "value": 12 },
+      { "type": "inductor", "name": "L1", "from": "in", "to": "sw", "value": 1e-4 },
+      { "type": "resistor", "name": "S1", "from": "sw", "to": "0",
+        "current": "v_S1*if(sin(2*pi*(t/1e-5 - 0.0033)) > 0, 20, 1e-7)" },
+      { "type": "diode", "name": "D1", "from": "sw", "to": "out", "saturation": 1e-12,
+        "emission": 1.2, "leak": 1e-12 },
+      { "type": "capacitor", "name": "C1", "from": "out", "to": "0", "value": 1e-5 },
+      { "type": "resistor", "name": "R1", "from": "out", "to": "0", "value": 2000 } ] },
+    "initial": { "phi_L1": 0, "q_C1": 4e-4 },
+    "method": { "type": "discretize-first", "damping": "l-stable" },
+    "time": { "tolerance": 1e-3, "end": 1e-4, "halvings": 10,
+              "corners": [ { "first": 3.3e-8, "period": 1e-5 }, { "first": 503.3e-8, "period": 1e-5 } ] },
+    "output": { "interval": 1e-7 },
+    "observe": { "at_switch": "potential_sw" }
+  })json");
+  const auto at_switch = [&](const Json& experiment) {
+    const TemporaryFolder folder;
+    BOOST_TEST((run_in(folder, experiment).status == RunStatus::completed));
+    const Run run = read_run(folder / "run");
+    const auto column = run.trajectory.column("at_switch");
+    return std::vector<double>(column.begin(), column.end());
+  };
+  const ChosenStep chosen = chosen_step(read_experiment_document(document));
+  BOOST_TEST(chosen.estimate <= 1e-3);
+  const auto found = at_switch(document);
+  document["time"].erase("tolerance");
+  document["time"]["step"] = chosen.step / 8;
+  const auto finer = at_switch(document);
+  long far = 0;
+  for (std::size_t k = 0; k < found.size(); ++k) far += std::abs(found[k] - finer[k]) > 1.0;
+  BOOST_TEST(found.size() == 1001u);
+  BOOST_TEST(far <= 6);
 }
 
 BOOST_AUTO_TEST_CASE(what_cannot_be_chosen_is_told) {
