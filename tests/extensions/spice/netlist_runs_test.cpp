@@ -39,7 +39,7 @@ struct Comparison {
   std::vector<std::string> nodes;  // columns 1, 2, … of theirs
   Json experiment;
   bool completed = false;
-  double stage_imbalance = 0.0;
+  double stage_imbalance = 0.0, step = 0.0;
   std::vector<std::string> warnings;
 
   explicit Comparison(const std::string& name, const std::string& options = accurate) {
@@ -50,6 +50,8 @@ struct Comparison {
     BOOST_TEST_REQUIRE((outcome.status == RunStatus::completed), outcome.message);
     completed = true;
     stage_imbalance = outcome.summary.power_balance->max_stage_imbalance;
+    step =
+        experiment.at("time").at("end").get<double>() / static_cast<double>(outcome.summary.steps);
     warnings = outcome.summary.warnings;
     ours = read_table(folder / "run/trajectory.csv", ',');
     for (const auto& [key, formula] : experiment.at("observe").items())
@@ -152,10 +154,12 @@ BOOST_AUTO_TEST_CASE(hard_netlists) {
   };
   for (const Hard& hard : all) BOOST_TEST_CONTEXT(hard.name) {
       const Comparison comparison(hard.name, hard.options);
-      // Tens of amperes through exponentials leave more.
-      BOOST_TEST(comparison.stage_imbalance < (hard.name == "three_phase"  ? 5e-12
-                                               : hard.name == "center_tap" ? 2e-12
-                                                                           : 1e-12));
+      // Tens of amperes through exponentials leave more. The energy that moves in a step shrinks with it, round-off of
+      // fluxes does not: of center_tap steps of 20, 10 and 5 µs leave 1.3, 2.8 and 5.4e-12.
+      BOOST_TEST(comparison.stage_imbalance < (hard.name == "three_phase" ? 5e-12
+                                               : hard.name == "center_tap"
+                                                   ? 2e-12 * (2e-5 / comparison.step)
+                                                   : 1e-12));
       // The edge of a pulse is no finding.
       BOOST_TEST(comparison.warnings.empty());
       for (const std::string& node : hard.nodes) {
