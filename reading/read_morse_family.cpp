@@ -75,18 +75,13 @@ std::optional<Model> read_optimal_control(ObjectReader& system) {
   words.coordinates = base->coordinates;
   const Manifold& Q = *base->manifold;
   Graph graph;
-  const SymbolTable symbols = words.symbols({.x = graph.variables("q", Q.ambient_dimension()),
-                                             .z = graph.variables("u", words.unknowns.size()),
-                                             .t = graph.variable("t")});
+  const ExprVector q = graph.variables("q", Q.ambient_dimension()),
+                   u = graph.variables("u", words.unknowns.size());
+  const Expr t = graph.variable("t");
+  const SymbolTable symbols = words.symbols({.x = q, .z = u, .t = t});
   bool right = cost && check(*cost, symbols, findings);
-  if (final_cost) {
-    const ExprVector q = graph.variables("q at the end", Q.ambient_dimension());
-    Vocabulary of_states = words;
-    of_states.unknowns = {};
-    right = check(*final_cost, of_states.symbols({.x = q, .t = graph.variable("t at the end")}),
-                  findings) &&
-            right;
-  }
+  if (final_cost)
+    right = check(*final_cost, words.symbols({.x = q, .t = t}), findings) && right;
   if (dynamics) {
     const auto count = static_cast<Index>(dynamics->formulas.size());
     const Index N = Q.ambient_dimension(), n = Q.tangent_dimension();
