@@ -40,11 +40,9 @@ Expr left_side(const BoundaryCondition& condition, const SymbolTable& symbols) {
   return evaluate(condition.formula, symbols) - evaluate(condition.value, symbols);
 }
 
-using KeyedFormulas = std::vector<std::pair<std::string, WrittenFormula>>;
-
 // The formulas of an entry by the key, or, where the key is the name of an array, by the names of its entries; none where
 // there are not as many as names.
-KeyedFormulas keyed_formulas(const std::string& key, const JsonReader& value,
+NamedFormulas keyed_formulas(const std::string& key, const JsonReader& value,
                              const SymbolTable& symbols) {
   const Symbol* symbol = symbols.find(key);
   const auto values = read_formulas(value);
@@ -56,7 +54,7 @@ KeyedFormulas keyed_formulas(const std::string& key, const JsonReader& value,
                   std::to_string(names.size()) + ", for " + key);
     return {};
   }
-  KeyedFormulas result;
+  NamedFormulas result;
   for (std::size_t i = 0; i < names.size(); ++i) result.emplace_back(names[i], values->formulas[i]);
   return result;
 }
@@ -99,8 +97,8 @@ std::optional<Index> place_of(const std::string& coordinate, const Model& model)
   return found - names.begin();
 }
 
-KeyedFormulas read_guess(const JsonReader& value, const Model& model) {
-  KeyedFormulas guess;
+NamedFormulas read_guess(const JsonReader& value, const Model& model) {
+  NamedFormulas guess;
   const auto entries = value.entries();
   if (!entries) return guess;
   const EndVariables at(model);

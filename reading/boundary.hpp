@@ -26,7 +26,7 @@ using NamedFormulas = std::vector<std::pair<std::string, WrittenFormula>>;
 struct Boundary {
   std::vector<BoundaryCondition> initial, final;
   // What is guessed of the motion: formulas in t for coordinates, by their names.
-  std::vector<std::pair<std::string, WrittenFormula>> guess = {};
+  NamedFormulas guess = {};
   NamedFormulas named;
   bool has_free_time = false;
   bool is_periodic = false;
