@@ -90,27 +90,23 @@ std::vector<BoundaryCondition> read_conditions(const std::optional<JsonReader>& 
   return conditions;
 }
 
-std::optional<Index> place_of(const std::string& coordinate, const Model& model) {
-  const auto& names = model.system->names().coordinates;
-  const auto found = std::ranges::find(names, coordinate);
-  if (found == names.end()) return std::nullopt;
-  return found - names.begin();
-}
-
-NamedFormulas read_guess(const JsonReader& value, const Model& model) {
-  NamedFormulas guess;
+std::vector<std::pair<Index, WrittenFormula>> read_guess(const JsonReader& value,
+                                                         const Model& model) {
+  std::vector<std::pair<Index, WrittenFormula>> guess;
   const auto entries = value.entries();
   if (!entries) return guess;
   const EndVariables at(model);
   const SymbolTable symbols = at.words(model, {});
   Graph graph;
   const SymbolTable of_time = model.vocabulary.of_time().symbols({.t = graph.variable("t")});
+  const auto& coordinates = model.system->names().coordinates;
   for (const auto& [key, entry] : *entries)
     for (const auto& [name, formula] : keyed_formulas(key, entry, symbols)) {
-      if (!place_of(name, model))
+      const auto found = std::ranges::find(coordinates, name);
+      if (found == coordinates.end())
         entry.problem("key, \"" + key + "\" is no coordinate; expected one");
       else if (check(formula, of_time, entry.findings()))
-        guess.emplace_back(name, formula);
+        guess.emplace_back(found - coordinates.begin(), formula);
     }
   return guess;
 }
@@ -201,8 +197,8 @@ std::optional<Boundary> read_boundary(const JsonReader& value, const Model& mode
 
 void take_guess(const Boundary& boundary, const Model& model, State& state) {
   const SymbolTable symbols = model.vocabulary.of_time().symbols({.t = Expr(state.t)});
-  for (const auto& [name, formula] : boundary.guess)
-    state.x[*place_of(name, model)] = evaluate(formula, symbols).value();
+  for (const auto& [coordinate, formula] : boundary.guess)
+    state.x[coordinate] = evaluate(formula, symbols).value();
 }
 
 EndConditions end_conditions(const Boundary& boundary, const Model& model, bool at_end) {

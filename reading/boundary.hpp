@@ -25,8 +25,8 @@ using NamedFormulas = std::vector<std::pair<std::string, WrittenFormula>>;
 //    "guess": {"x": "1 - t"}, "continuation": {"parameter": "c", "from": 0}, "segments": 8}
 struct Boundary {
   std::vector<BoundaryCondition> initial, final;
-  // What is guessed of the motion: formulas in t for coordinates, by their names.
-  NamedFormulas guess = {};
+  // What is guessed of the motion: formulas in t for coordinates.
+  std::vector<std::pair<Index, WrittenFormula>> guess = {};
   NamedFormulas named;
   bool has_free_time = false;
   bool is_periodic = false;

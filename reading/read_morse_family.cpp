@@ -80,8 +80,7 @@ std::optional<Model> read_optimal_control(ObjectReader& system) {
   const Expr t = graph.variable("t");
   const SymbolTable symbols = words.symbols({.x = q, .z = u, .t = t});
   bool right = cost && check(*cost, symbols, findings);
-  if (final_cost)
-    right = check(*final_cost, words.symbols({.x = q, .t = t}), findings) && right;
+  if (final_cost) right = check(*final_cost, words.symbols({.x = q, .t = t}), findings) && right;
   if (dynamics) {
     const auto count = static_cast<Index>(dynamics->formulas.size());
     const Index N = Q.ambient_dimension(), n = Q.tangent_dimension();
