@@ -323,9 +323,7 @@ std::vector<Index> indices(const Flags& flags) {
 }
 
 PartialVector::PartialVector(Index size)
-    : values(VectorXd::Zero(size)),
-      given(Eigen::Array<bool, Eigen::Dynamic, 1>::Constant(size, false)),
-      held(given) {}
+    : values(VectorXd::Zero(size)), given(Flags::Constant(size, false)), held(given) {}
 
 namespace {
 

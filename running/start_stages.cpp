@@ -9,10 +9,8 @@
 namespace courant {
 namespace {
 
-using Chosen = Eigen::Array<bool, Eigen::Dynamic, 1>;
-
 // Entries of (x, v, z) with the values that are given of them.
-LeastChange given_entries(const Chosen& which, const VectorXd& values, Index offset) {
+LeastChange given_entries(const Flags& which, const VectorXd& values, Index offset) {
   LeastChange change;
   std::vector<Index> entries;
   for (Index i = 0; i < which.size(); ++i)
@@ -45,7 +43,7 @@ class MotionStage {
     const Manifold& M = *system_->manifold();
     const InitialValues& initial = experiment.initial;
     const Index N = M.ambient_dimension();
-    Chosen momenta = initial.x.given;
+    Flags momenta = initial.x.given;
     momenta.head(positions) = false;
     momenta_ = given_entries(momenta, guess.x, 0);
     if (guess.v.size() > 0) velocities_ = given_entries(given_components(initial, M), guess.v, N);
@@ -85,13 +83,13 @@ class MotionStage {
 
  private:
   // The components of v = C ẋ of which something is given.
-  static Chosen given_components(const InitialValues& initial, const Manifold& M) {
-    const Chosen& given = initial.velocity.given;
+  static Flags given_components(const InitialValues& initial, const Manifold& M) {
+    const Flags& given = initial.velocity.given;
     if (M.has_identity_frame()) return given;
-    const Chosen are_velocities = M.velocities_among_components(initial.x.values);
+    const Flags are_velocities = M.velocities_among_components(initial.x.values);
     const MatrixXd C = M.coframe(initial.x.values).entries().cwiseAbs();
     const VectorXd of_given = C * given.cast<double>().matrix();
-    return Chosen::NullaryExpr(
+    return Flags::NullaryExpr(
         of_given.size(), [&](Index i) { return are_velocities[i] ? given[i] : of_given[i] > 0.0; });
   }
 
@@ -123,7 +121,7 @@ std::vector<NearestStart::Stage> start_stages(const Experiment& experiment,
   const Index N = M.ambient_dimension();
   const Index positions = bundle ? bundle->base()->ambient_dimension() : N;
 
-  Chosen where = initial.x.given;
+  Flags where = initial.x.given;
   where.tail(N - positions) = false;
   std::vector<NearestStart::Stage> stages;
   const auto add = [&](LeastChange change, const VectorXd& weights) {
